@@ -21,6 +21,7 @@ typedef struct {
     nh_generator *generator;   /* d */
     nh_algebra algebra;        /* C */
     nh_ex *constant;           /* d x d x d: the same as expressions of the parameters (constants.h) */
+    bool exact;                /* they are known exactly, not by numbers at the sample points */
     bool closes;
     double closure;            /* largest residual of a bracket, relative */
     size_t worst[2];           /* the bracket with the largest residual */

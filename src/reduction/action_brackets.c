@@ -54,8 +54,8 @@ static void normalise(const nh_kinetic *k, size_t d, double *E, double *B, doubl
 }
 
 /* [e_a, e_b] = c^k e_k by exact relations among the fields (d of them) and their brackets: c[pair * d + k]; outside: of
- * the brackets that are no combinations.  Unchanged where these are not known. */
-static void exact_brackets(const nh_kinetic *k, size_t d, const nh_ex *e, const nh_ex *b, const nh_options *options,
+ * the brackets that are no combinations.  False, and unchanged, where these are not known. */
+static bool exact_brackets(const nh_kinetic *k, size_t d, const nh_ex *e, const nh_ex *b, const nh_options *options,
                            double *c, bool *outside)
 {
     size_t m = k->m, columns = d + d * (d - 1) / 2, n = 0, found, *pair = nh_alloc_array(columns + 1, sizeof *pair);
@@ -84,6 +84,7 @@ static void exact_brackets(const nh_kinetic *k, size_t d, const nh_ex *e, const 
     }
     nh_free(entry);
     nh_free(pair);
+    return all != NULL;
 }
 
 /* The fields, and all their brackets. */
@@ -147,7 +148,7 @@ void nh_action_find_constants(nh_action *g, const nh_options *options)
     list_brackets(g, e, b);
     g->outside = nh_arena_alloc(k->arena, d * d * sizeof *g->outside);
     numeric_brackets(g, e, b, options);
-    if (d > 1) exact_brackets(k, d, e, b, options, g->algebra.c, g->outside);
+    g->exact = d == 1 || exact_brackets(k, d, e, b, options, g->algebra.c, g->outside);
     for (size_t i = 0; i < d * d * d; i++) {
         g->closes &= !g->outside[i / d];
         double c = g->outside[i / d] ? 0 : g->algebra.c[i];

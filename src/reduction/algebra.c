@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/linalg.h"
 #include "base/memory.h"
 #include "reduction/subspace.h"
 
@@ -100,4 +101,21 @@ double nh_algebra_ideal(const nh_algebra *g, size_t r, const double *u)
     worst = nh_coordinates(d, r, u, d * r, all, x);
     nh_free(all);
     return r ? worst : 0;
+}
+
+void nh_algebra_balance(const nh_algebra *g, double *t)
+{
+    static const double dependent = 1e-10;
+    size_t d = g->d, n = 0, rows = d * d * d + d;
+    double *a = nh_alloc_array(rows * d + rows + 1, sizeof *a), *b = a + rows * d;
+    for (size_t i = 0; i < d * d * d; i++) { /* log |c| + tau_a + tau_b - tau_k = 0 */
+        if (g->c[i] == 0) continue;
+        a[n + i / d / d * rows] += 1;
+        a[n + i / d % d * rows] += 1;
+        a[n + i % d * rows] -= 1;
+        b[n++] = -log(fabs(g->c[i]));
+    }
+    bool good = n && nh_least_squares(rows, d, a, 1, b, rows, dependent) >= 0;
+    for (size_t i = 0; i < d; i++) t[i] = good ? exp(b[i]) : 1;
+    nh_free(a);
 }

@@ -35,10 +35,17 @@ void nh_algebra_coad(const nh_algebra *algebra, const double *x, const double *m
  * be NULL): the distance of brackets from the span. */
 nh_algebra nh_algebra_change(const nh_algebra *algebra, size_t r, const double *t, double *off);
 
+/* d factors t such that the constants in the basis t_a e_a are as close to 1 in modulus as they can be, in the sense of
+ * least squares of their logarithms: then none is small because of a unit. */
+void nh_algebra_balance(const nh_algebra *algebra, double *t);
+
 /* The centre, and the span of all brackets [u, w] of two subspaces; out is d x d; return the dimension. */
 size_t nh_algebra_centre(const nh_algebra *algebra, double small, double *out);
 size_t nh_algebra_brackets(const nh_algebra *algebra, size_t r, const double *u, size_t s, const double *w,
                            double small, double *out);
+/* [g, g], and the radical; out is d x d; return the dimension. */
+size_t nh_algebra_derived(const nh_algebra *algebra, double small, double *out);
+size_t nh_algebra_radical(const nh_algebra *algebra, double small, double *out);
 /* k_ij = C_ia^b C_jb^a. */
 void nh_algebra_killing(const nh_algebra *algebra, double *out);
 /* The distance of [e_a, x] from the span of r vectors x (0: an ideal). */

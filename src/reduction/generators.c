@@ -164,28 +164,33 @@ static void make_generator(nh_generator_fit *s, size_t r, nh_ex *coefficient, nh
     if (related.invariant) *out = related;
 }
 
-/* The fields of vectors that are symmetries to rounding only may have combinations that are exact ones: all of them,
- * in a basis of their own.  `candidate`: d x m components. */
-static void combine(nh_generator_fit *s, nh_ex *candidate, nh_generators *out)
+/* Where vectors are symmetries to rounding only: all exact combinations of the library's fields, on whatever coordinates
+ * they depend, or, of a large library, of those vectors.  `candidate`: d x m components of these. */
+static void combine(nh_generator_fit *s, const nh_ex *candidate, nh_generators *out)
 {
+    enum { most = 100 };
     const nh_kinetic *k = s->k;
     nh_dag *dag = k->dag;
-    size_t m = s->m, d = s->d, most = m * (m + 1) / 2 + 1 + k->f + m, rows = 0;
-    nh_ex *e = nh_alloc_array(d * most + most + m + 1, sizeof *e), *equation = e + d * most,
-          *component = equation + most;
+    nh_library l;
+    nh_library_init(&l, k, NULL, out->level, 2, most);
+    bool whole = l.count < most;
+    size_t m = s->m, n = whole ? l.count : s->d, equations = m * (m + 1) / 2 + 1 + k->f + m, rows = 0, found = 0;
+    nh_ex *e = nh_alloc_array(n * (equations + m) + equations + m + 1, sizeof *e), *field = e + n * equations,
+          *equation = field + n * m, *component = equation + equations;
     nh_generators all = *out;
-    for (size_t r = 0; r < d; r++) {
-        nh_invariance_equations(k, candidate + r * m, equation, &rows);
+    if (!whole) memcpy(field, candidate, n * m * sizeof *field);
+    for (size_t r = 0; r < n; r++) {
+        for (size_t i = 0; i < m && whole; i++) field[r * m + i] = nh_library_component(&l, dag, r, i);
+        nh_invariance_equations(k, field + r * m, equation, &rows);
         memcpy(e + r * rows, equation, rows * sizeof *e);
     }
-    nh_ex *c = nh_section_relations(k, d, rows, e, s->options, &all.count);
-    size_t found = 0;
+    nh_ex *c = nh_section_relations(k, n, rows, e, s->options, &all.count);
     all.generator = nh_arena_alloc(k->arena, (all.count + 1) * sizeof *all.generator);
     for (size_t j = 0; j < all.count && c; j++) {
         for (size_t i = 0; i < m; i++) {
             component[i] = nh_int(dag, 0);
-            for (size_t r = 0; r < d; r++)
-                component[i] = nh_add(dag, component[i], nh_mul(dag, c[j * d + r], candidate[r * m + i]));
+            for (size_t r = 0; r < n; r++)
+                component[i] = nh_add(dag, component[i], nh_mul(dag, c[j * n + r], field[r * m + i]));
             component[i] = nh_simplify(dag, component[i]);
         }
         nh_generator_init(&all.generator[found], k, NULL, component, s->options);
@@ -193,6 +198,7 @@ static void combine(nh_generator_fit *s, nh_ex *candidate, nh_generators *out)
     }
     all.count = found;
     if (found > out->count) *out = all;
+    nh_library_clear(&l);
     nh_free(e);
 }
 

@@ -38,11 +38,22 @@ static size_t circles(const nh_group *g, const nh_options *options)
 
 static void name_group(nh_group *g, const nh_options *options)
 {
+    static const double rounding = 1e-10;
     nh_text name;
     nh_text_init(&name);
     const nh_algebra *algebra = g->missing ? &g->jets->algebra : &g->action.algebra;
-    nh_algebra_report_init(&g->report, algebra, options->group, options->cluster, (size_t)options->ideals,
-                           (uint64_t)options->seed);
+    size_t d = algebra->d;
+    bool exact = !g->missing && g->action.exact;
+    double *t = nh_alloc_array(d * d + d + 1, sizeof *t), *unit = t + d * d;
+    if (exact) nh_algebra_balance(algebra, unit);
+    for (size_t a = 0; a < d; a++) t[a * (d + 1)] = exact ? unit[a] : 1;
+    nh_algebra balanced = nh_algebra_change(algebra, d, t, NULL);
+    nh_algebra_report_init(&g->report, exact ? &balanced : algebra, exact ? rounding : options->group,
+                           options->cluster, (size_t)options->ideals, (uint64_t)options->seed);
+    for (size_t i = 0; i < g->report.pieces && exact; i++)
+        for (size_t j = 0; j < d * g->report.piece[i].dimension; j++) g->report.piece[i].basis[j] *= unit[j % d];
+    nh_algebra_clear(&balanced);
+    nh_free(t);
     g->closed = nh_alloc_array(g->report.pieces + 1, sizeof *g->closed);
     size_t n = g->missing || !g->action.closes ? 0 : circles(g, options);
     for (size_t i = 0; i < g->report.pieces; i++)

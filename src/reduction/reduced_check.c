@@ -6,30 +6,43 @@
 #include "base/linalg.h"
 #include "graph/diff.h"
 
-/* u = (x', zeta), n + d values, at z, and its rate by differences of fourth order along the equations; a step changes z
- * by this part of 1 + |z|. */
-static bool rates(nh_reduced_flow *flow, const nh_reduced *o, const double *z, double part, double *u, double *slope)
+/* u = (x', zeta), n + d values, at z. */
+static bool velocities(nh_reduced_flow *flow, const nh_reduced *o, const double *z, double *u)
 {
-    static const double weight[] = {1, -8, 0, 8, -1};
-    size_t size = o->n + o->r, all = o->n + o->d;
-    double *rate = nh_alloc_array(4 * size + o->d + 1, sizeof *rate), *at = rate + size, *other = at + size,
-           *zeta = other + size, h = 0;
+    double *rate = nh_alloc_array(o->n + o->r + o->d + 1, sizeof *rate), *zeta = rate + o->n + o->r;
     bool good = nh_reduced_flow_at(flow, z, rate, NULL, zeta, NULL);
     memcpy(u, rate, o->n * sizeof *u);
     memcpy(u + o->n, zeta, o->d * sizeof *u);
-    for (size_t i = 0; i < size; i++) h = fmax(h, fabs(rate[i]) / (1 + fabs(z[i])));
-    h = part / (1 + h);
+    good = good && nh_all_finite(o->n + o->d, u);
+    nh_free(rate);
+    return good;
+}
+
+/* Its rate, by differences of fourth order along the equations, h apart in time. */
+static bool rates(nh_reduced_flow *flow, const nh_reduced *o, const double *z, double h, double *slope)
+{
+    static const double weight[] = {1, -8, 0, 8, -1};
+    size_t size = o->n + o->r, all = o->n + o->d;
+    double *rate = nh_alloc_array(2 * size + all + 1, sizeof *rate), *at = rate + size, *u = at + size;
+    bool good = nh_reduced_flow_at(flow, z, rate, NULL, NULL, NULL);
     memset(slope, 0, all * sizeof *slope);
     for (int step = -2; step <= 2 && good; step++) {
         if (!step) continue;
         for (size_t i = 0; i < size; i++) at[i] = z[i] + step * h * rate[i];
-        good = nh_reduced_flow_at(flow, at, other, NULL, zeta, NULL);
-        for (size_t i = 0; i < all; i++)
-            slope[i] += weight[step + 2] * (i < o->n ? other[i] : zeta[i - o->n]) / (12 * h);
+        good = velocities(flow, o, at, u);
+        for (size_t i = 0; i < all; i++) slope[i] += weight[step + 2] * u[i] / (12 * h);
     }
-    good = good && nh_all_finite(all, u) && nh_all_finite(all, slope);
     nh_free(rate);
-    return good;
+    return good && nh_all_finite(all, slope);
+}
+
+/* The time in which a coordinate changes by its size. */
+static double time_of(size_t m, const double *size, const double *v)
+{
+    double time = INFINITY;
+    for (size_t i = 0; i < m; i++)
+        if (v[i] != 0) time = fmin(time, size[i] / fabs(v[i]));
+    return isfinite(time) ? time : 1;
 }
 
 typedef struct {
@@ -98,7 +111,6 @@ static double at_state(bench *b, const double *u, const double *slope, nh_accele
 {
     size_t m = b->s->m;
     double off = 0, size = 0;
-    nh_tape_eval(b->tape, b->work, b->q, b->e);
     lift(b, u, slope);
     if (!nh_all_finite(m, b->a) || !accelerations(context, b->q, b->v, b->want)) return -1;
     for (size_t i = 0; i < m; i++) {
@@ -109,31 +121,70 @@ static double at_state(bench *b, const double *u, const double *slope, nh_accele
     return fmax(off_constraints(b), size > 0 ? off / size : 0);
 }
 
+/* Velocities w of the size of the sampled ones. */
+static void choose_velocities(const bench *b, const nh_reduced *o, size_t p, const double *speed, double *w)
+{
+    const nh_slice *s = b->s;
+    size_t m = s->m;
+    double *v = nh_alloc_array(2 * m + 1, sizeof *v), *u = v + m;
+    for (size_t i = 0; i < m; i++) v[i] = cos(1.7 * (double)(p + 1) + 2.3 * (double)i) * speed[i];
+    bool good = nh_slice_components(s, b->q, v, u);
+    for (size_t i = 0; i < o->r; i++) {
+        w[i] = good && o->r == m ? u[i] : cos(1.7 * (double)(p + 1) + 2.3 * (double)i);
+        for (size_t j = 0; j < m && good; j++)
+            if ((j < o->n ? o->dx[j] : o->zeta[j - o->n]) == o->w[i]) w[i] = u[j];
+    }
+    nh_free(v);
+}
+
+/* Of a state z of the slice at b->q; infinite where it cannot be evaluated. */
+static double difference_at(bench *b, nh_reduced_flow *flow, const nh_reduced *o, const double *z, const double *size,
+                            nh_accelerations *accelerations, void *context)
+{
+    static const double part[] = {0.001, 0.0001}; /* rounding prefers the first, nearby poles the second */
+    size_t m = b->s->m;
+    double *u = nh_alloc_array(2 * m + 1, sizeof *u), *slope = u + m, best = INFINITY;
+    if (velocities(flow, o, z, u)) {
+        nh_tape_eval(b->tape, b->work, b->q, b->e);
+        lift(b, u, slope); /* for v */
+        double time = time_of(m, size, b->v);
+        for (size_t i = 0; i < sizeof part / sizeof *part; i++) {
+            double here =
+                rates(flow, o, z, part[i] * time, slope) ? at_state(b, u, slope, accelerations, context) : INFINITY;
+            if (here >= 0 && here < best) best = here;
+        }
+    }
+    nh_free(u);
+    return best;
+}
+
 double nh_reduced_difference(const nh_reduced *o, const nh_slice *s, nh_accelerations *accelerations, void *context,
                              size_t *states)
 {
-    enum { trials = 8, steps = 2 };
-    static const double part[steps] = {1e-3, 1e-4}; /* rounding prefers the first, nearby poles the second */
+    enum { trials = 8 };
+    static const double far_enough = 0.05; /* of the guards, from where the slice or its connection ends */
     const nh_kinetic *k = s->kinetic;
     size_t m = s->m;
-    double *x = nh_alloc_array(o->n + 2 * o->r + 2 * (o->n + o->r) + 2 * m + 1, sizeof *x), *w = x + o->n,
-           *z = w + o->r, *u = z + o->n + o->r, *slope = u + m, worst = 0;
+    double *x = nh_alloc_array(2 * (o->n + o->r) + 2 * m + 1, sizeof *x), *w = x + o->n, *z = w + o->r,
+           *size = z + o->n + o->r, *speed = size + m, worst = 0;
     nh_reduced_flow *flow = nh_reduced_flow_create(o);
     bench b;
     open_bench(&b, s);
+    nh_kinetic_sizes(k, k->places, size);
+    for (size_t i = 0; i < k->places * m && k->speed; i++) speed[i % m] = fmax(speed[i % m], fabs(k->speed[i]));
+    for (size_t i = 0; i < m; i++) speed[i] = speed[i] > 0 ? speed[i] : 1;
     *states = 0;
-    for (size_t p = 0; p < trials && p < k->places; p++) {
-        double best = INFINITY;
+    for (size_t p = 0; *states < trials && p < k->places; p++) {
+        double guard[2];
         for (size_t i = 0; i < o->n; i++) x[i] = k->place[p * m + s->shape[i]];
-        for (size_t i = 0; i < o->r; i++) w[i] = cos(1.7 * (double)(p + 1) + 2.3 * (double)i);
         nh_slice_place(s, x, b.q);
-        for (int step = 0; step < steps && nh_reduced_start(o, x, w, z); step++) {
-            double here = rates(flow, o, z, part[step], u, slope) ? at_state(&b, u, slope, accelerations, context) : -1;
-            if (here >= 0 && here < best) best = here;
-        }
-        if (!isfinite(best)) continue;
+        choose_velocities(&b, o, p, speed, w);
+        bool good = nh_reduced_flow_guards(flow, x, guard) && fmin(fabs(guard[0]), fabs(guard[1])) >= far_enough &&
+                    nh_reduced_start(o, x, w, z);
+        double off = good ? difference_at(&b, flow, o, z, size, accelerations, context) : INFINITY;
+        if (!isfinite(off)) continue;
         (*states)++;
-        worst = fmax(worst, best);
+        worst = fmax(worst, off);
     }
     nh_reduced_flow_free(flow);
     nh_tape_work_free(b.work);
@@ -148,7 +199,7 @@ double nh_reduced_difference(const nh_reduced *o, const nh_slice *s, nh_accelera
 struct nh_reduced_shape {
     const nh_reduced *reduced;
     nh_reduced_flow *flow;
-    double *z, *u;
+    double *z, *u, *size;
 };
 
 nh_reduced_shape *nh_reduced_shape_create(const nh_reduced *o)
@@ -156,8 +207,9 @@ nh_reduced_shape *nh_reduced_shape_create(const nh_reduced *o)
     nh_reduced_shape *s = nh_alloc(sizeof *s);
     *s = (nh_reduced_shape){.reduced = o,
                             .flow = nh_reduced_flow_create(o),
-                            .z = nh_alloc_array(4 * (o->n + o->r + o->d) + 1, sizeof *s->z)};
+                            .z = nh_alloc_array(4 * (o->n + o->r + o->d) + o->kinetic->m + 1, sizeof *s->z)};
     s->u = s->z + o->n + o->r;
+    s->size = s->z + 4 * (o->n + o->r + o->d);
     return s;
 }
 
@@ -174,8 +226,12 @@ bool nh_reduced_shape_accelerations(void *shape, const double *x, const double *
     nh_reduced_shape *s = shape;
     const nh_reduced *o = s->reduced;
     static const double part = 1e-3;
-    double *slope = s->u + o->n + o->d;
-    bool good = nh_reduced_start(o, x, v, s->z) && rates(s->flow, o, s->z, part, s->u, slope);
+    double *size = s->u + 2 * (o->n + o->d), *slope = s->u + o->n + o->d;
+    nh_kinetic_sizes(o->kinetic, o->kinetic->places, s->size);
+    for (size_t i = 0; i < o->n; i++)
+        for (size_t j = 0; j < o->kinetic->m; j++)
+            if (o->kinetic->q[j] == o->x[i]) size[i] = s->size[j];
+    bool good = nh_reduced_start(o, x, v, s->z) && rates(s->flow, o, s->z, part * time_of(o->n, size, v), slope);
     if (good) memcpy(acceleration, slope, o->n * sizeof *acceleration);
     return good;
 }

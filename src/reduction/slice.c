@@ -289,23 +289,25 @@ static bool regular_at(const nh_action *g, const size_t *along, const double *y)
     enum { trials = 8 };
     static const double regular = 1e-3;
     const nh_kinetic *k = g->kinetic;
-    size_t m = k->m, d = g->d;
+    size_t m = k->m, d = g->d, singular = 0, tried = k->places < trials ? k->places : trials;
     double *q = nh_alloc_array(m, sizeof *q), *minor = nh_alloc_array(d * d + m * d + d + 1, sizeof *minor);
     double *E = minor + d * d, *sv = E + m * d;
     bool good = true;
-    for (size_t p = 0; p < trials && p < k->places && good && d; p++) {
+    for (size_t p = 0; p < tried && good && d; p++) {
         memcpy(q, k->place + p * m, m * sizeof *q);
         for (size_t a = 0; a < d; a++) q[along[a]] = y[a];
         nh_action_values(g, q, E);
         for (size_t i = 0; i < d; i++)
             for (size_t a = 0; a < d; a++) minor[i + a * d] = E[along[i] + a * m];
-        good = nh_all_finite(m * d, E) && metric_regular(k, k->place + p * m, q) && transverse_at(g, q, E);
+        good = nh_all_finite(m * d, E);
+        /* slices may meet such places, but must not lie in them */
+        singular += good && !(metric_regular(k, k->place + p * m, q) && transverse_at(g, q, E));
         nh_singular_values(d, d, minor, sv);
         good = good && sv[d - 1] > regular * sv[0];
     }
     nh_free(q);
     nh_free(minor);
-    return good;
+    return good && 2 * singular <= tried;
 }
 
 bool nh_slice_nice(const nh_action *g, const size_t *along, double *y)

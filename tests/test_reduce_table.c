@@ -1,0 +1,163 @@
+/* `reduce` on systems whose groups, closed forms and measures are known independently: by construction, or by hand.
+ *
+ * A system is built from a group that is known, from a small coupling that breaks a symmetry however small it is, with forces, with
+ * indefinite metrics, or on slices at poles of its coordinates.  Every equation that is printed is compared with the true accelerations. */
+#include "oracle.h"
+
+#include <stdio.h>
+
+#include "commands/reduce.h"
+#include "scratch.h"
+#include "sweep.h"
+
+typedef enum { NO_MEASURE = -1, UNTESTED, A_MEASURE } measure;
+
+typedef struct {
+    const char *coordinates; /* "x y a:angle" */
+    const char *lagrangian, *rest; /* rest: other keys of the file, a line each, or NULL */
+    const char *group;       /* its name */
+    size_t dimension, closed;
+    measure measure;         /* of the first stage */
+    bool weak;
+    const char *fields;      /* --group */
+} known;
+
+/* L of plane points and turns */
+#define POINT2 "(x'^2 + y'^2)/2"
+#define POINT3 "(x'^2 + y'^2 + z'^2)/2"
+#define MINKOWSKI "(x'^2 + y'^2 + z'^2 - s'^2)/2"
+#define SLEIGH(a) "7/10*((x' - " a "*h'*sin(h))^2 + (y' + " a "*h'*cos(h))^2) + h'^2/4", "constraints: [\"y'*cos(h) = x'*sin(h)\"]"
+#define THRUST "forces: [\"x = cos(h)\", \"y = sin(h)\"]"
+#define SPHERE "(a'^2 + sin(a)^2*b'^2)/2"
+
+static const known table[] = {
+    /* small couplings: what they break is broken, at 1 as at 1e-12 */
+    {"x y", POINT2 " - (x^2 + y^2)/2", NULL, "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"x y", POINT2 " - (x^2 + y^2)/2 - 1e-3*x^2", NULL, "trivial", 0, 0, UNTESTED, false, NULL},
+    {"x y", POINT2 " - (x^2 + y^2)/2 - 1e-8*x^2/2", NULL, "trivial", 0, 0, UNTESTED, false, NULL},
+    {"x y", POINT2 " - (x^2 + y^2)/2 - 1e-12*x^2/2", NULL, "trivial", 0, 0, UNTESTED, false, NULL},
+    {"x y", POINT2 " - 1e-8*x*(1 + y^2)", NULL, "trivial", 0, 0, UNTESTED, false, NULL},
+    {"x y", POINT2 " - 1e-12*x*(1 + y^2)", NULL, "trivial", 0, 0, UNTESTED, false, NULL},
+    {"x y", POINT2 " - 1e-12*x", NULL, "R", 1, 1, UNTESTED, false, NULL},
+    {"x y z", POINT3 " + 1/sqrt(x^2 + y^2 + z^2)", "domain: {x: [1, 2]}", "SO(3)", 3, 3, UNTESTED, false, NULL},
+    {"x y z", POINT3 " + 1/sqrt(x^2 + y^2 + z^2)*(1 - 1e-3*(3*z^2/(x^2 + y^2 + z^2) - 1))", "domain: {x: [1, 2]}", "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"x y z", POINT3 " + 1/sqrt(x^2 + y^2 + z^2)*(1 - 1e-8*(3*z^2/(x^2 + y^2 + z^2) - 1))", "domain: {x: [1, 2]}", "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"x y z", POINT3 " + 1/sqrt(x^2 + y^2 + z^2)*(1 - 1e-10*(3*z^2/(x^2 + y^2 + z^2) - 1))", "domain: {x: [1, 2]}", "SO(2)", 1, 1, UNTESTED, false, NULL},
+    /* the axis of the perturbation is (1, 1, 0): the symmetry is a combination of those that are broken */
+    {"x y z", POINT3 " - (x^2 + y^2 + z^2)/2 - 1e-9*(x + y)^4", NULL, "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"x y z", POINT3 " - (x^2 + y^2 + z^2)/2 - 1e-9*(3*x + 4*z)^4", NULL, "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"x y z", POINT3 " - (x^2 + y^2 + z^2)/2 - 1e-11*(x + 2*y - z)^4", NULL, "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"x y", POINT2 " + 1e-10*x'*y'", NULL, "SE(2)", 3, 3, UNTESTED, false, NULL},
+    {"x y", "(x'^2 + (1 + 1e-9*x^2)*y'^2)/2", NULL, "R", 1, 1, UNTESTED, false, NULL},
+    /* near 1/3; a curvature of 1e-8 */
+    {"x y", POINT2 " - x^2/2 - 3*0.3333333333*y^2/2", NULL, "trivial", 0, 0, UNTESTED, false, NULL},
+    {"x y", "2*(x'^2 + y'^2)/(2 + 1e-8*(x^2 + y^2))^2", NULL, "SO(3)", 3, 3, UNTESTED, false, NULL},
+    {"x y", "2*(x'^2 + y'^2)/(2 - 1e-8*(x^2 + y^2))^2", NULL, "SL(2,R)", 3, 3, UNTESTED, false, NULL},
+    /* measures */
+    {"x y h:angle", SLEIGH("0.3"), "SE(2)", 3, 3, NO_MEASURE, false, NULL},
+    {"x y h:angle", SLEIGH("1e-5"), "SE(2)", 3, 3, NO_MEASURE, false, NULL},
+    {"x y h:angle", SLEIGH("1e-8"), "SE(2)", 3, 3, NO_MEASURE, false, NULL},
+    {"x y h:angle", SLEIGH("1e-12"), "SE(2)", 3, 3, NO_MEASURE, false, NULL},
+    {"x y h:angle", SLEIGH("0"), "SE(2)", 3, 3, A_MEASURE, false, NULL},
+    {"x y z", POINT3, "constraints: [\"z' = y*x'\"]", "R^2", 2, 2, A_MEASURE, false, NULL},
+    {"x y z", POINT3, "constraints: [\"z' = x*y' + (1 + 1e-8)*y*x'\"]", "R", 1, 1, NO_MEASURE, false, NULL},
+    /* forces belong to the fit */
+    {"x y h:angle", "(x'^2 + y'^2 + h'^2)/2", THRUST, "SE(2)", 3, 3, UNTESTED, false, NULL},
+    {"x y h:angle", "(x'^2 + y'^2)*13/10 + h'^2/4", "forces: [\"x = cos(h) - x'\", \"y = sin(h) - y'\", \"h = -h'/3\"]", "SE(2)", 3, 3, UNTESTED, false, NULL},
+    {"x y h:angle", "(x'^2 + y'^2)*13/10 + h'^2/4", "forces: [\"x = cos(h) - y\", \"y = sin(h) + x\"]", "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"x y", POINT2, "forces: [\"x = -x'/5\", \"y = -y'/5\"]", "SE(2)", 3, 3, UNTESTED, false, NULL},
+    {"x y", POINT2, "forces: [\"x = -y\", \"y = x\"]", "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"x y", POINT2, "forces: [\"x = -x'/5\", \"y = -x'*1e-9\"]", "R^2", 2, 2, UNTESTED, false, NULL},
+    {"x y z", POINT3, "forces: [\"x = -y'\", \"y = x'\"]", "SE(2) x R", 4, 4, UNTESTED, false, NULL},
+    {"x y h:angle", "(x'^2 + y'^2 + h'^2)/2", "constraints: [\"y'*cos(h) = x'*sin(h)\"]\nforces: [\"x = cos(h)\", \"y = sin(h)\"]", "SE(2)", 3, 3, UNTESTED, false, NULL},
+    /* magnetic: a translation changes L by a total derivative */
+    {"x y", POINT2 " + (x*y' - y*x')/3", NULL, "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"x y", POINT2 " + (x*y' - y*x')/3", NULL, "SE(2)", 3, 3, UNTESTED, true, NULL},
+    {"x y u w", POINT2 " + (u'^2 + w'^2)*17/20 + 9/20*(x*y' - y*x' - 4/5*(u*w' - w*u')) + 4/5/sqrt((x - u)^2 + (y - w)^2)", "domain: {x: [1, 2], u: [-1, 0]}", "SE(2)", 3, 3, UNTESTED, true, NULL},
+    {"x y", POINT2 " - y", NULL, "R^2", 2, 2, UNTESTED, true, NULL},
+    /* indefinite metrics */
+    {"x s", "(x'^2 - s'^2)/2", NULL, "E(1,1)", 3, 3, UNTESTED, false, NULL},
+    {"x s", "x'*s'", NULL, "E(1,1)", 3, 3, UNTESTED, false, NULL},
+    {"s x", "(x'^2 - x^2*s'^2)/2", "domain: {x: [0.6, 2]}", "E(1,1)", 3, 3, UNTESTED, false, NULL},
+    {"a b", "exp(3*a)*(b'^2 - a'^2)/2", NULL, "E(1,1)", 3, 3, UNTESTED, false, NULL},
+    {"a b", "exp(a)*(b'^2 - a'^2)/2", NULL, "E(1,1)", 3, 3, UNTESTED, false, NULL},
+    {"x s", "(x'^2 - s'^2)/2 - x^2/2", NULL, "R", 1, 1, UNTESTED, false, NULL},
+    {"x s", "(x'^2 - s'^2)/2 - (x^2 - s^2)/2", NULL, "R", 1, 1, UNTESTED, false, NULL},
+    {"x s", "(x'^2 - s'^2)/2 - (x^2 - s^2)/2 - 1e-9*x^4", NULL, "trivial", 0, 0, UNTESTED, false, NULL},
+    {"x y s", "(x'^2 + y'^2 - s'^2)/2", NULL, "ISO(2,1)", 6, 6, UNTESTED, false, NULL},
+    {"x y z s", MINKOWSKI, NULL, "ISO(3,1)", 10, 10, UNTESTED, false, NULL},
+    {"x y z s", MINKOWSKI " - (x^2 + y^2 + z^2 - s^2)^2", NULL, "SO(3,1)", 6, 6, UNTESTED, false, NULL},
+    {"x y z s", MINKOWSKI " - s", NULL, "SE(3)", 6, 6, UNTESTED, false, NULL},
+    /* spaces whose groups are known */
+    {"x y", POINT2, NULL, "SE(2)", 3, 3, UNTESTED, false, NULL},
+    {"x y z", POINT3, NULL, "SE(3)", 6, 6, UNTESTED, false, NULL},
+    {"x y z w", POINT3 " + w'^2/2", NULL, "SE(4)", 10, 10, UNTESTED, false, NULL},
+    {"a:angle b:angle", SPHERE, "domain: {a: [0.4, 2.6]}", "SO(3)", 3, 3, UNTESTED, false, NULL},
+    {"x y", "(x'^2 + y'^2)/(2*y^2)", "domain: {y: [0.4, 1.2]}", "SL(2,R)", 3, 3, UNTESTED, false, NULL},
+    {"r f:angle", "(r'^2 + sinh(r)^2*f'^2)/2", "domain: {r: [0.4, 1.2]}", "SL(2,R)", 3, 3, UNTESTED, false, NULL},
+    {"x y", "2*(x'^2 + y'^2)/(1 - x^2 - y^2)^2", "domain: {x: [-0.5, 0.5], y: [-0.5, 0.5]}", "SL(2,R)", 3, 3, UNTESTED, false, NULL},
+    {"x y z", "(x'^2 + y'^2 + z'^2)/(2*z^2)", "domain: {z: [0.5, 2]}", "SO(3,1)", 6, 6, UNTESTED, false, NULL},
+    {"x y z", "(x'^2 + y'^2 + (z' - x*y')^2)/2", NULL, "(Heisenberg x| SO(2))", 4, 4, UNTESTED, false, NULL},
+    {"x y z", "(x'^2 + 2*y'^2 + 3*(z' - x*y')^2 + x'*y')/2", NULL, "(Heisenberg x| SO(2))", 4, 4, UNTESTED, false, NULL},
+    {"x y z", "(exp(2*z)*x'^2 + exp(-2*z)*y'^2 + z'^2)/2", NULL, "E(1,1)", 3, 3, UNTESTED, false, NULL},
+    {"x y z", "(exp(2*z)*x'^2 + exp(4*z)*y'^2 + z'^2)/2", NULL, "Bianchi VI", 3, 3, UNTESTED, false, NULL},
+    {"x y z", "(exp(2*z)*(x'^2 + y'^2) + z'^2)/2", NULL, "SO(3,1)", 6, 6, UNTESTED, false, NULL},
+    {"a:angle b:angle c:angle", "(a'^2 + sin(a)^2*b'^2 + cos(a)^2*c'^2)/2", "domain: {a: [0.4, 1.2]}", "SO(3)^2", 6, 6, UNTESTED, false, NULL},
+    {"r f:angle", "(r'^2 + r^2*f'^2)/2", "domain: {r: [0.6, 2]}", "SE(2)", 3, 3, UNTESTED, false, NULL},
+    {"x y f:angle", "(x'^2 + y'^2 + f'^2)/2", NULL, "SE(3)", 6, 6, UNTESTED, false, NULL},
+    /* slices at poles of the coordinates */
+    {"a:angle b:angle", SPHERE, "domain: {a: [0.4, 2.6]}", "SO(2)", 1, 1, UNTESTED, false, "a=cos(b), b=-cos(a)*sin(b)/sin(a)"},
+    {"a:angle b:angle", SPHERE, "domain: {a: [0.4, 2.6]}", "SO(2)", 1, 1, UNTESTED, false, "a=sin(b), b=cos(a)*cos(b)/sin(a)"},
+    {"a:angle b:angle z", SPHERE " + z'^2/2 - z^2*cos(z)", "domain: {a: [0.4, 2.6]}", "SO(2)", 1, 1, UNTESTED, false, "a=cos(b), b=-cos(a)*sin(b)/sin(a)"},
+    {"r f:angle", "(r'^2 + r^2*f'^2)/2", "domain: {r: [0.6, 2]}", "R", 1, 1, UNTESTED, false, "r=cos(f), f=-sin(f)/r"},
+    {"r f:angle", "(r'^2 + sinh(r)^2*f'^2)/2", "domain: {r: [0.4, 1.2]}", "R", 1, 1, UNTESTED, false, "r=cos(f), f=-cosh(r)*sin(f)/sinh(r)"},
+    {"a:angle b:angle z", "(a'^2 + sin(a)^2*b'^2)/2 + z'^2/2", "domain: {a: [0.4, 2.6]}\nconstraints: [\"z' = cos(a)*b'\"]", "SO(2) x R", 2, 2, A_MEASURE, false, NULL},
+};
+
+static char *file_of(const known *k)
+{
+    char *text = malloc(4000), *at = text, names[200], *save = NULL;
+    strcpy(names, k->coordinates);
+    at += sprintf(at, "name: known\ncoordinates:\n");
+    for (char *word = strtok_r(names, " ", &save); word; word = strtok_r(NULL, " ", &save)) {
+        char *type = strchr(word, ':');
+        if (type) *type++ = 0;
+        at += sprintf(at, "  - {name: %s, type: %s}\n", word, type ? type : "number");
+    }
+    sprintf(at, "lagrangian: \"%s\"\n%s\n", k->lagrangian, k->rest ? k->rest : "");
+    return text;
+}
+
+static void check(size_t i)
+{
+    const known *k = &table[i];
+    char path[SCRATCH], *text = file_of(k);
+    nh_error error = {0};
+    cr_assert(scratch_text(path, text));
+    nh_reduce_request q = {.system_path = path, .weak = k->weak, .group = k->fields};
+    nh_options_default(&q.options);
+    nh_reduction *r = nh_reduction_create(&q, &error);
+    must(r != NULL, &error, text);
+    const nh_group *g = r->all ? r->all : r->group;
+    cr_expect_str_eq(g->name, k->group, "%zu: the group is %s\n%s", i, g->name, text);
+    cr_expect_eq(g->action.d + g->missing, k->dimension, "%zu: dimension %zu\n%s", i, g->action.d + g->missing, text);
+    cr_expect_eq(g->action.d, k->closed, "%zu: %zu closed forms\n%s", i, g->action.d, text);
+    cr_expect(!g->jets || g->jets->exact, "%zu: counted by numbers\n%s", i, text);
+    if (k->measure != UNTESTED) {
+        cr_assert(r->stages && r->stage[0].measure.tested, "%zu: no measure was sought\n%s", i, text);
+        cr_expect(r->stage[0].measure.exact && r->stage[0].measure.measure == (k->measure == A_MEASURE), "%zu: measure %d\n%s", i, r->stage[0].measure.measure, text);
+    }
+    for (size_t s = 0; s < r->stages; s++)
+        cr_expect(r->stage[s].printed_states && r->stage[s].printed < 1e-8, "%zu, stage %zu: as printed %g at %zu states\n%s", i, s + 1, r->stage[s].printed, r->stage[s].printed_states, text);
+    if (k->fields) cr_expect(r->stages > 0, "%zu: no stage\n%s", i, text);
+    nh_reduction_free(r);
+    remove(path);
+    free(text);
+}
+
+/* With NHSYM_SWEEPS=all the whole table; else one system in three, under sanitizers one in fifteen. */
+Test(reduce_table, groups_forms_and_measures_are_the_known_ones)
+{
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        if (sweep_tries(i, 3, 15)) check(i);
+}
