@@ -351,7 +351,7 @@ static void count_parts(const objective *o, nh_hits *h)
 {
     enum { most_parts = 1 << 12 };
     size_t all = 1;
-    h->parts = (size_t)fmax(1, floor(pow(most_parts, 1.0 / (double)o->n) + 1e-9));
+    h->parts = (size_t)fmax(1, floor(pow(most_parts, 1.0 / (double)o->n)));
     for (size_t j = 0; j < o->n; j++) all *= h->parts;
     bool *seen = nh_alloc_array(all, sizeof *seen);
     for (size_t i = 0; i < (size_t)o->evaluations; i++) {
