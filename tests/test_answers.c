@@ -179,6 +179,29 @@ Test(independence, functions_of_what_was_found_are_seen)
     mechanics_clear(&x);
 }
 
+/* Functions of one function, that are never both real: the second was "independent", at points where the first has no value.  What is real beside
+ * each of them is still independent. */
+Test(independence, what_is_real_elsewhere_is_no_evidence)
+{
+    static const char *const list[][2] = {{"omega*exp(log(v))/v^3", "omega*exp(log(-v))/v^3"}, {"log(omega)", "log(-omega)"}, {"sqrt(x - 0.1)", "sqrt(0.1 - x)"},
+                                          {"exp(3*log(omega/v))", "exp(3*log(-omega/v))"}, {"sqrt(1 - 4*x^2)", "sqrt(4*x^2 - 1)"}, {"asin(2*x)", "acosh(2*x)"},
+                                          {"(x*y)^(3/4)", "(-x*y)^(1/4)"}};
+    mechanics x = sleigh(1.3, 0.7, 1.5);
+    nh_points *points = points_of(x.model, 24, 6);
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        nh_ex phi[] = {formula(x.model, list[i][0]), formula(x.model, list[i][1]), formula(x.model, "phi + t"), formula(x.model, "sqrt(-1 - y^2)")};
+        bool exact[] = {true, true, true, true};
+        nh_independence got[4];
+        nh_independence_test(x.model, points, 4, phi, exact, 1e-2, 1e-6, got, NULL);
+        cr_expect_eq(got[0], NH_INDEPENDENT, "%s", list[i][0]);
+        cr_expect_neq(got[1], NH_INDEPENDENT, "%s", list[i][1]);
+        cr_expect_eq(got[2], NH_INDEPENDENT, "beside %s", list[i][0]);
+        cr_expect_eq(got[3], NH_DOUBTFUL, "real nowhere: %d", (int)got[3]);
+    }
+    nh_points_free(points);
+    mechanics_clear(&x);
+}
+
 /* Implicit velocities: the gradient is that on the submanifold, where u depends on the rest. */
 Test(independence, on_an_implicit_submanifold)
 {

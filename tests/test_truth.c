@@ -123,3 +123,35 @@ Test(truth, a_current_holds_wherever_motions_go, .timeout = 120)
     }
     place_clear(&p);
 }
+
+/* ---- unknowns that were sought by trial ---- */
+
+#define DRAG "name: drag\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nforces:\n  - x = -(35/188*x' + 35/94*y')*x'\n" \
+    "  - y = -(35/188*x' + 35/94*y')*y'\n"
+
+/* (NONE, "search exhausted", although x' exp(35/188 x + 35/94 y) is conserved; "the ansatz is too large" of no columns.) */
+Test(truth, trials_that_find_nothing_prove_nothing, .timeout = 120)
+{
+    static const char *const ansatz[] = {"exp(al*x + be*y)", "exp(al*x)*cosh(be*y)", "exp(al*x - be*y^2)", "(1 + x^2)^al*exp(be*y)"};
+    static const double width[] = {40, 400, 4};
+    place p = place_make();
+    write_here(&p, "drag.yaml", DRAG);
+    for (size_t i = 0; i < 4; i++)
+        for (size_t k = 0; k < 3; k++) {
+            char file[600];
+            if (!sweep_tries(3 * i + k + 1, 4, 12) && i + k) continue;
+            snprintf(file, sizeof file, "name: a\nsystem: drag.yaml\nansatz:\n  - product:\n      - terms: [\"x'\", \"y'\"]\n      - terms: [\"%s\"]\n"
+                     "unknowns: {al: [-%g, %g], be: [-%g, %g]}\n", ansatz[i], width[k], width[k], width[k], width[k]);
+            write_here(&p, "a.yaml", file);
+            told t = tell(&p, "analyze --analysis a.yaml", 0);
+            const nh_json *tried = nh_json_get(t.json, "tried");
+            const char *verdict = nh_json_text(t.json, "verdict");
+            cr_expect(strcmp(verdict, "NONE") != 0 && !strstr(t.text, "exhausted"), "%s%s", file, t.text);
+            cr_expect(!strstr(t.text, "0 columns") && !strstr(t.text, "too large"), "%s", t.text);
+            cr_expect(nh_json_value(tried, "evaluations") > 0 && nh_json_value(tried, "visited") > 0, "%s", t.text);
+            cr_expect(strcmp(verdict, "FOUND") == 0 || strstr(t.text, "This proves nothing about other values."), "%s", t.text);
+            if (i == 0 && k == 2) cr_expect_str_eq(verdict, "FOUND", "%s", t.text);
+            told_clear(&t);
+        }
+    place_clear(&p);
+}

@@ -1,5 +1,7 @@
 #include "commands/analyze_known.h"
 
+#include <math.h>
+
 #include "base/progress.h"
 #include "base/text.h"
 #include "commands/verify_internal.h"
@@ -7,7 +9,7 @@
 #include "search/currents.h"
 #include "search/dependence.h"
 
-enum { points_of_rank = 24 };
+enum { points_of_rank = 24, digits_of_a_number = 6 };
 
 /* Is it a function of the currents found, or constant? */
 static nh_independence beside_the_found(const nh_analysis *r, nh_ex phi)
@@ -49,10 +51,13 @@ static void refute(nh_analysis *r, nh_stated *s, const nh_verification *v)
     s->state = v->has_counterexample ? v->counterexample : NULL;
     s->rate = v->rate;
     if (s->denied) return;
-    nh_analysis_warn(r, "the system file calls `%s` a current: it is none%s%s%s", s->name,
+    bool rounded = v->proof.digits >= digits_of_a_number;
+    nh_analysis_warn(r, "the system file calls `%s` a current: it is none%s%s%s%s", s->name,
                      s->state ? nh_arena_printf(r->arena, ", its rate is %.6g in the state ", s->rate) : "",
                      s->state ? state_in_words(r, s->state) : "",
-                     s->state ? "" : ", its rate cancels to few digits");
+                     s->state ? "" : ", its rate cancels to few digits",
+                     rounded ? nh_arena_printf(r->arena, "; its rate cancels to %.0f digits: are its numbers rounded?",
+                                               floor(v->proof.digits)) : "");
 }
 
 static void confirm(nh_analysis *r, nh_stated *s, const nh_verification *v)

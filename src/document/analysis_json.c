@@ -202,6 +202,14 @@ static void put_unknowns(const writer *w, nh_json *to)
             nh_json_put_number(value, "quotient", s->hit->quotient);
         }
     }
+    if (!nh_analysis_by_trial(r)) {
+        nh_json_put_null(to, "tried");
+        return;
+    }
+    nh_json *tried = nh_json_put_object(to, "tried");
+    nh_json_put_number(tried, "evaluations", (double)r->hits->evaluations);
+    nh_json_put_number(tried, "parts", (double)r->hits->parts);
+    nh_json_put_number(tried, "visited", (double)r->hits->visited);
 }
 
 static void put_search(const writer *w, nh_json *to)

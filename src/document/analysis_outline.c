@@ -48,7 +48,9 @@ static void answer(nh_pen *p, const nh_analysis *r)
         nh_pen_say(p, "no current%s %s", r->pieces ? " of all motions" : "",
                    r->verdict == NH_NONE ? "in this ansatz" : "so far");
     else nh_pen_say(p, "%s", nh_facts_nothing(r));
-    if (p->ink->brief) nh_pen_say(p, " (search %s)", nh_search_word(r->search));
+    if (p->ink->brief)
+        nh_pen_say(p, nh_analysis_by_trial(r) ? " (unknowns sought by trial)" : " (search %s)",
+                   nh_search_word(r->search));
     else meanings(p, r), nh_pen_say(p, ".");
     nh_pen_close(p, NH_PEN_ANSWER);
     if (r->count && r->verdict == NH_UNDECIDED)
@@ -56,6 +58,7 @@ static void answer(nh_pen *p, const nh_analysis *r)
     if (r->partial && !p->ink->brief) nh_pen_warning(p, nh_facts_search(r));
     else if (!p->ink->brief) nh_pen_words(p, "%s", nh_facts_search(r));
     if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
+    if (p->ink->brief && nh_analysis_by_trial(r)) nh_pen_words(p, "%s", nh_facts_search(r));
     if (p->ink->brief && nh_facts_given(r) && r->search == NH_SEARCH_EXHAUSTED)
         nh_pen_words(p,
                      "The ansatz is that of the analysis file. With --no-analysis the program chooses what it tries.");

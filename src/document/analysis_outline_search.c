@@ -44,7 +44,7 @@ static void spectrum_plot(nh_pen *p, const nh_analysis *r)
 
 static void spectrum(nh_pen *p, const char *name, const nh_spectrum *s)
 {
-    if (!s->done) return;
+    if (!s->done || !s->columns) return;
     nh_pen_fact_begin(p, name);
     nh_pen_say(p, "%zu columns (%zu independent), %zu rows: ", s->columns, s->rank, s->rows);
     if (!s->rank) nh_pen_say(p, "no column varies on the samples");
@@ -99,7 +99,8 @@ static void unknowns(nh_pen *p, const nh_analysis *r)
 {
     for (size_t k = 0; r->hits && k < r->specials; k++)
         for (size_t j = 0; j < r->hits->unknowns; j++) unknown(p, r, &r->special[k], j);
-    if (r->hits && !r->specials) nh_pen_words(p, "No value of the unknowns gives a current.");
+    if (r->hits && !r->specials) nh_pen_words(p, "No value of the unknowns %sgives a current.",
+                                               nh_analysis_by_trial(r) ? "that was tried " : "");
 }
 
 static void stages(nh_pen *p, const nh_analysis *r)

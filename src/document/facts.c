@@ -191,6 +191,7 @@ const char *nh_facts_nothing(const nh_analysis *r)
 {
     if (r->verdict == NH_NONE) return "No current in this ansatz";
     if (r->pieces) return "Undecided: no current of all motions so far";
+    if (nh_analysis_by_trial(r)) return "Undecided: no value of the unknowns that was tried gives a current";
     return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far"
                                                                  : "Undecided: no candidate has a certificate";
 }
@@ -222,6 +223,12 @@ const char *nh_facts_search(const nh_analysis *r)
                                "The search is exhausted: it tried every stage except %zu that %s too large; the list "
                                "of stages names the option that allows %s.",
                                left_out, left_out == 1 ? "is" : "are", left_out == 1 ? "it" : "them");
+    if (nh_analysis_by_trial(r))
+        return nh_arena_printf(r->arena,
+                               "The values of the unknowns were sought by trial: %ld of them, in %zu of %.0f equal parts "
+                               "of their box. This proves nothing about other values.",
+                               r->hits->evaluations, r->hits->visited,
+                               pow((double)r->hits->parts, (double)r->hits->unknowns));
     if (nh_facts_given(r))
         return "The search is exhausted: it tried the ansatz of the analysis file, and nothing else. With "
                "--no-analysis "

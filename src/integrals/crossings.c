@@ -12,9 +12,10 @@
 #include "integrals/projected_points.h"
 #include "system/sample.h"
 
-enum { lines = 48, motions = 12, motion_steps = 240,
-       wanted = 2, most_wanted = 32, /* of one part of a wall; of a wall */
+enum { lines = 48, least_lines = 16, motions = 12, motion_steps = 240,
+       wanted = 2, least_wanted = 6, most_wanted = 32, tries = 4, /* of one part of a wall; of a wall */
        steps_out = 31, grid = 2 * steps_out + 1, most_steps = 200, bits = 192 };
+static const double long_rates = 2e4; /* instructions */
 /* in half widths of the box: the lines reach 0.08 * 1.25^30 = 65 of them */
 static const double first_step = 0.08, ratio = 1.25, digits = 4e-16;
 static const double depth[NH_CROSSING_DEPTHS] = {1.0 / (1 << 12), 1.0 / (1 << 24), 1.0 / (1LL << 36)};
@@ -24,7 +25,7 @@ static const double depth[NH_CROSSING_DEPTHS] = {1.0 / (1 << 12), 1.0 / (1 << 24
 typedef struct {
     const nh_model *o;
     const nh_walls *walls;
-    size_t explicit_width, found[NH_MOST_WALLS];
+    size_t explicit_width, found[NH_MOST_WALLS], tried[NH_MOST_WALLS], most; /* most crossings of a wall */
     uint64_t key[NH_MOST_WALLS][most_wanted]; /* of the crossings found: which part of the wall */
     nh_tape *tape;      /* per wall: g, then its derivatives by (t, q, w); then what divides walls into parts */
     nh_tape_work *work;
@@ -210,13 +211,40 @@ static bool is_wanted(const finder *x, size_t i, uint64_t key)
 {
     size_t same = 0;
     for (size_t k = 0; k < x->found[i]; k++) same += x->key[i][k] == key;
-    return same < wanted && x->found[i] < most_wanted;
+    return same < wanted && x->found[i] < x->most && x->tried[i] < tries * x->most;
+}
+
+/* Does the straight way from the box to this state cross no wall at which motions do not arrive, and no pole of L? */
+static bool is_open_to(finder *x, const double *to)
+{
+    enum { places = 32 };
+    finder w = *x; /* with a line of its own */
+    size_t n = x->explicit_width, width = x->o->width;
+    double f[2][NH_MOST_WALLS], slope[NH_MOST_WALLS], where;
+    bool open = nh_open_way_leads(x->way, x->begin, to), before = false;
+    w.projector = NULL;
+    w.origin = x->begin;
+    w.z = nh_alloc_array(2 * width, sizeof *w.z);
+    w.direction = w.z + width;
+    for (size_t j = 0; j < width; j++) w.direction[j] = j < n ? to[j] - x->begin[j] : 0, w.z[j] = x->begin[j];
+    for (int k = 0; k < places && open; k++) { /* not up to the wall itself */
+        bool here = at(&w, (double)k / places, f[k % 2], slope);
+        for (size_t i = 0; i < x->walls->count && here && before && open; i++)
+            if (f[0][i] * f[1][i] < 0 && find_change(&(quantity){&w, i, false, false}, (double)(k - 1) / places,
+                                                     (double)k / places, &where))
+                open = !is_clearly_unreached(&w, i, where);
+        before = here;
+    }
+    nh_free(w.z);
+    return open;
 }
 
 static void keep(finder *x, size_t i, double s, bool touches)
 {
     uint64_t key = part_of(x, i, s);
-    if (!is_wanted(x, i, key) || is_clearly_unreached(x, i, s)) return;
+    if (!is_wanted(x, i, key)) return;
+    x->tried[i]++;
+    if (is_clearly_unreached(x, i, s)) return;
     double f[NH_MOST_WALLS], slope[NH_MOST_WALLS];
     nh_crossing c = {.wall = x->walls->e[i], .touches = touches};
     for (int side = 0; side < 2; side++)
@@ -230,7 +258,7 @@ static void keep(finder *x, size_t i, double s, bool touches)
     for (int side = 0; side < 2; side++)
         for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++)
             if (!c.point[side][k]) return; /* nearer to the supposed change the function has one sign */
-    if (!is_reached(x, &c) || (x->begin && !nh_open_way_leads(x->way, x->begin, c.point[0][0]))) return;
+    if (!is_reached(x, &c) || (x->begin && !is_open_to(x, c.point[0][0]))) return;
     x->list.item[x->list.count++] = c;
     x->key[i][x->found[i]++] = key;
 }
@@ -240,7 +268,7 @@ static void keep(finder *x, size_t i, double s, bool touches)
 static void look_between(finder *x, size_t i, const double *s, const double *f, const double *slope)
 {
     double where, value[NH_MOST_WALLS], ignored[NH_MOST_WALLS];
-    if (x->found[i] == most_wanted || !isfinite(f[0]) || !isfinite(f[1])) return;
+    if (x->found[i] == x->most || !isfinite(f[0]) || !isfinite(f[1])) return;
     if (f[0] * f[1] < 0) {
         if (find_change(&(quantity){x, i, false, false}, s[0], s[1], &where)) keep(x, i, where, false);
     } else if (slope[0] * slope[1] < 0 && find_change(&(quantity){x, i, true, false}, s[0], s[1], &where) &&
@@ -409,17 +437,22 @@ nh_crossings nh_crossings_find(const nh_model *o, const nh_walls *walls, uint64_
     create(&x);
     x.way = nh_open_way_create(o);
     x.list.item = nh_arena_alloc(arena, 2 * walls->count * most_wanted * sizeof *x.list.item);
-    for (size_t motion = 0; motion < 2 * motions; motion++) {
+    /* of long equations fewer: every crossing costs many of their evaluations */
+    double part = fmin(1, long_rates / (double)(1 + nh_tape_length(x.rates)));
+    size_t few = (size_t)fmax(lines * part, least_lines);
+    x.most = (size_t)fmax(most_wanted * part, least_wanted);
+    for (size_t motion = 0; motion < (size_t)(2 * motions * part); motion++) {
         draw_in_chart(&x, false, state);
         follow_motion(&x, motion % 2 ? 1 : -1);
     }
     x.begin = nh_arena_alloc(arena, o->width * sizeof *x.begin);
-    for (size_t line = 0; line < lines; line++) {
+    for (size_t line = 0; line < few; line++) {
         draw_in_chart(&x, line % 2, state);
         follow_line(&x);
     }
     x.projector = nh_projector_create(o, x.ball);
     memset(x.found, 0, sizeof x.found);
+    memset(x.tried, 0, sizeof x.tried);
     for (size_t line = 0; line < lines && x.projector; line++) {
         draw_in_chart(&x, false, state);
         draw_in_velocities(&x, state);

@@ -64,17 +64,21 @@ static double *gradients(const nh_model *o, const nh_points *points, size_t n, c
 typedef struct {
     size_t width, points, accepted;
     double *basis; /* per point: accepted orthonormal gradients */
+    bool *without; /* per point: an accepted function has no value there, so that it says nothing of others */
 } frame;
 
-/* Removes the accepted directions (twice, because of rounding); returns the remaining part of |g|, or -1 when g is not
- * finite or not above `noise`. */
+enum { NO_VALUE = -2, NO_GRADIENT = -1 };
+
+/* Removes the accepted directions (twice, because of rounding); returns the remaining part of |g|, or NO_GRADIENT when g
+ * is not above `noise`, or NO_VALUE. */
 static double remaining(const frame *f, size_t point, double *g, double noise)
 {
     double before = 0, after = 0;
     const double *basis = f->basis + point * f->width * f->width;
     for (size_t j = 0; j < f->width; j++) before += g[j] * g[j];
     before = sqrt(before);
-    if (!(before > noise) || !isfinite(before)) return -1;
+    if (!isfinite(before) || !isfinite(noise) || f->without[point]) return NO_VALUE;
+    if (!(before > noise)) return NO_GRADIENT;
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < f->accepted; k++) {
             double dot = 0;
@@ -91,7 +95,8 @@ static void accept(frame *f, const double *rest)
         double size = 0, *to = f->basis + p * f->width * f->width + f->accepted * f->width;
         const double *g = rest + p * f->width;
         for (size_t j = 0; j < f->width; j++) size += g[j] * g[j];
-        for (size_t j = 0; j < f->width; j++) to[j] = size > 0 ? g[j] / sqrt(size) : 0;
+        for (size_t j = 0; j < f->width; j++) to[j] = size > 0 && isfinite(size) ? g[j] / sqrt(size) : 0;
+        f->without[p] |= !isfinite(size);
     }
     f->accepted++;
 }
@@ -126,7 +131,8 @@ void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, 
 {
     size_t width = 1 + o->m + o->n, count = points->count;
     double *g = gradients(o, points, n, phi, width);
-    frame f = {.width = width, .points = count, .basis = nh_alloc_array(count * width * width + 1, sizeof(double))};
+    frame f = {.width = width, .points = count, .basis = nh_alloc_array(count * width * width + 1, sizeof(double)),
+               .without = nh_alloc_array(count + 1, sizeof(bool))};
     double *rest = nh_alloc_array(count * width + 1, sizeof *rest), *left = nh_alloc_array(count + 1, sizeof *left);
     for (size_t k = 0; k < n; k++) {
         size_t usable = 0, still = 0;
@@ -135,17 +141,23 @@ void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, 
             double noise = DBL_EPSILON / doubt * g[(n * width + k) * count + p],
                    r = remaining(&f, p, rest + p * width, noise);
             if (r >= 0) left[usable++] = r;
-            else still += isfinite(noise);
+            else still += r == NO_GRADIENT;
         }
         double m = median(usable, left);
         if (fraction) fraction[k] = usable ? m : 0;
-        out[k] = still >= usable ? NH_CONSTANT : m > sure ? NH_INDEPENDENT : m < doubt ? NH_DEPENDENT : NH_DOUBTFUL;
+        bool known = usable + still > 0;
+        out[k] = !known            ? NH_DOUBTFUL
+                 : still >= usable ? NH_CONSTANT
+                 : m > sure        ? NH_INDEPENDENT
+                 : m < doubt       ? NH_DEPENDENT
+                                   : NH_DOUBTFUL;
         if (out[k] == NH_DEPENDENT && is_small_only(o, k, phi, exact, out, m)) out[k] = NH_DOUBTFUL;
         if (out[k] == NH_DOUBTFUL) out[k] = decide(o, k, phi, out, doubt);
         if (out[k] == NH_INDEPENDENT && f.accepted < width) accept(&f, rest);
     }
     nh_free(left);
     nh_free(rest);
+    nh_free(f.without);
     nh_free(f.basis);
     nh_free(g);
 }

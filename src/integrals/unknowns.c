@@ -346,6 +346,27 @@ bool nh_unknowns_scan(const nh_model *model, const nh_points *points, size_t fam
     return good;
 }
 
+/* How many of the equal parts of the box hold an evaluation? */
+static void count_parts(const objective *o, nh_hits *h)
+{
+    enum { most_parts = 1 << 12 };
+    size_t all = 1;
+    h->parts = (size_t)fmax(1, floor(pow(most_parts, 1.0 / (double)o->n)));
+    for (size_t j = 0; j < o->n; j++) all *= h->parts;
+    bool *seen = nh_alloc_array(all, sizeof *seen);
+    for (size_t i = 0; i < (size_t)o->evaluations; i++) {
+        size_t at = 0;
+        for (size_t j = 0; j < o->n; j++) {
+            const nh_unknown *u = &o->unknown[j];
+            double part = (o->seen[i * (o->n + 1) + j] - u->low) / (u->high - u->low) * (double)h->parts;
+            at = at * h->parts + (size_t)fmin(fmax(part, 0), (double)h->parts - 1);
+        }
+        h->visited += !seen[at];
+        seen[at] = true;
+    }
+    nh_free(seen);
+}
+
 nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
                           size_t unknowns, const nh_unknown *unknown, const nh_options *options, nh_error *error)
 {
@@ -379,6 +400,7 @@ nh_hits *nh_unknowns_find(const nh_model *model, const nh_points *points, size_t
         consider(h, &o, theta + i * unknowns, false);
     }
     h->evaluations = o.evaluations;
+    count_parts(&o, h);
     nh_free(theta);
     close_objective(&o);
     return h;

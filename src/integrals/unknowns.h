@@ -29,6 +29,8 @@ typedef struct {
     size_t generic;         /* null dimension for generic theta */
     long evaluations;       /* number of evaluations of the search's objective */
     double best;            /* the smallest value of the objective */
+    /* the box cut into so many equal parts along each unknown, and how many of the parts hold an evaluation */
+    size_t parts, visited;
     bool pencil_applied;    /* the ansatz has the form that the pencil needs */
 } nh_hits;
 

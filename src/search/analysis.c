@@ -40,6 +40,8 @@ nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
     return c;
 }
 
+bool nh_analysis_by_trial(const nh_analysis *r) { return r->hits && !r->hits->pencil_applied; }
+
 const char *nh_analysis_stated_word(nh_stated_verdict verdict)
 {
     static const char *const word[] = {"found", "not found", "constant", "in a region", "not conserved", "undecided"};

@@ -252,6 +252,8 @@ const char *nh_analysis_stated_word(nh_stated_verdict verdict);
 const char *nh_limit_words(nh_arena *arena, const nh_limit *limit);
 /* The pieces that are constant along every motion, because motions end where the pieces do. */
 size_t nh_analysis_to_the_end(const nh_analysis *result);
+/* Were the unknowns of the ansatz sought by trial alone?  Then other values may give currents. */
+bool nh_analysis_by_trial(const nh_analysis *result);
 /* The number of stages that were too large. */
 size_t nh_analysis_left_out(const nh_analysis *result);
 

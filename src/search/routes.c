@@ -51,6 +51,7 @@ void nh_routes_compare(nh_analysis *r, const nh_ansatz *a, const nh_points *poin
     size_t n =
         a->columns * (r->model->n + 1) <= most_columns ? nh_rows_field_columns(r->model, a->columns, b, &column) : 0;
     nh_free(b);
+    if (a->columns == 0) return; /* no value of the unknowns: nothing to compare */
     if (n == 0) {
         nh_analysis_warn(
             r, "the symmetry route was skipped: the ansatz is too large; the symmetries follow from the currents");
