@@ -6,7 +6,7 @@
 #include "exact/normal.h"
 #include "exact/print_quotient.h"
 
-enum { most_terms = 20000, most_calls = 200 };
+enum { most_terms = 20000 };
 
 typedef struct {
     nh_dag *dag;
@@ -47,7 +47,6 @@ static nh_ex in_symbols(root_search *x, nh_ex e)
         e = nh_add(d, e, nh_mul(d, power, i < f->angles ? nh_call(d, NH_SIN, f->angle[i])
                                                         : nh_call(d, NH_EXP, f->exponent[i - f->angles])));
     e = nh_substitute(d, nh_canonical_sum(d, e), 1, &mark, &zero);
-    nh_ex call[most_calls], by[most_calls];
     for (size_t i = f->roots; i-- > 0;) e = nh_substitute_root(d, e, f->radicand[i], x->symbol[i]);
     for (size_t i = 0; i < f->angles; i++) {
         nh_ex u = x->tangent[i], square = nh_powi(d, u, 2), below = nh_add(d, one, square);
@@ -55,13 +54,17 @@ static nh_ex in_symbols(root_search *x, nh_ex e)
               to[] = {nh_div(d, nh_add(d, u, u), below), nh_div(d, nh_sub(d, one, square), below)};
         e = nh_substitute(d, e, 2, from, to);
     }
-    size_t calls = nh_functions_in(d, e, call, most_calls), exponentials = 0;
-    for (size_t i = 0; i < calls && i < most_calls; i++)
+    NH_LIST(call);
+    size_t calls = nh_functions_in(d, e, &call), exponentials = 0;
+    nh_ex *by = nh_alloc_array(calls + 1, sizeof *by);
+    for (size_t i = 0; i < calls; i++)
         if (nh_function_of(d, call[i]) == NH_EXP) {
             by[exponentials] = exponential(x, call[i]);
             call[exponentials++] = call[i];
         }
-    return nh_substitute(d, e, exponentials, call, by);
+    e = nh_substitute(d, e, exponentials, call, by);
+    nh_free(by);
+    return e;
 }
 
 /* Without roots: a quotient of polynomials in symbols and functions that are not related. */

@@ -124,7 +124,8 @@ bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables,
     if (found && list_constants(&x, dag)) {
         nh_jet_ring *ring = ring_at(&x, 0);
         x.ring = ring;
-        for (bool first = true, known; found && next_signs(&x, first, &known); first = false) found = known && solve(&x);
+        for (bool first = true, known; found && next_signs(&x, first, &known); first = false)
+            found = known && solve(&x);
         nh_jet_ring_free(ring);
     } else {
         found = false;

@@ -208,8 +208,8 @@ static size_t arguments_of(const tower *x, nh_jet_kernel_kind kind, nh_ex e, nh_
     for (size_t i = 0; i < x->point->kernels; i++) {
         const nh_jet_kernel *k = &x->point->kernel[i];
         if (k->kind != kind || nh_jet_point_is_pi(x->point, k->key)) continue;
-        nh_ex symbol;
-        bool occurs = !nh_symbols_in(x->dag, k->key, &symbol, 1);
+        NH_LIST(symbol);
+        bool occurs = !nh_symbols_in(x->dag, k->key, &symbol);
         for (size_t s = 0; s < x->symbols && !occurs; s++)
             occurs = nh_depends(x->dag, k->key, x->symbol[s]) && nh_depends(x->dag, e, x->symbol[s]);
         if (occurs) out[count++] = nh_mul(x->dag, nh_ratio(x->dag, 1, (int64_t)k->order), k->key);

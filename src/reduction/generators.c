@@ -164,8 +164,8 @@ static void make_generator(nh_generator_fit *s, size_t r, nh_ex *coefficient, nh
     if (related.invariant) *out = related;
 }
 
-/* Where vectors are symmetries to rounding only: all exact combinations of the library's fields, on whatever coordinates
- * they depend, or, of a large library, of those vectors.  `candidate`: d x m components of these. */
+/* Where vectors are symmetries to rounding only: all exact combinations of the library's fields, on whatever
+ * coordinates they depend, or, of a large library, of those vectors.  `candidate`: d x m components of these. */
 static void combine(nh_generator_fit *s, const nh_ex *candidate, nh_generators *out)
 {
     enum { most = 100 };
