@@ -128,9 +128,8 @@ static char *file_of(const known *k)
     return text;
 }
 
-static void check(size_t i)
+static nh_reduction *reduced(const known *k)
 {
-    const known *k = &table[i];
     char path[SCRATCH], *text = file_of(k);
     nh_error error = {0};
     cr_assert(scratch_text(path, text));
@@ -138,6 +137,16 @@ static void check(size_t i)
     nh_options_default(&q.options);
     nh_reduction *r = nh_reduction_create(&q, &error);
     must(r != NULL, &error, text);
+    remove(path);
+    free(text);
+    return r;
+}
+
+static void check(size_t i)
+{
+    const known *k = &table[i];
+    char *text = file_of(k);
+    nh_reduction *r = reduced(k);
     const nh_group *g = r->all ? r->all : r->group;
     cr_expect_str_eq(g->name, k->group, "%zu: the group is %s\n%s", i, g->name, text);
     cr_expect_eq(g->action.d + g->missing, k->dimension, "%zu: dimension %zu\n%s", i, g->action.d + g->missing, text);
@@ -151,8 +160,27 @@ static void check(size_t i)
         cr_expect(r->stage[s].printed_states && r->stage[s].printed < 1e-8, "%zu, stage %zu: as printed %g at %zu states\n%s", i, s + 1, r->stage[s].printed, r->stage[s].printed_states, text);
     if (k->fields) cr_expect(r->stages > 0, "%zu: no stage\n%s", i, text);
     nh_reduction_free(r);
-    remove(path);
     free(text);
+}
+
+/* Subgroups that act freely are sought among all combinations of the generators, not only among these. */
+Test(reduce_table, a_free_subgroup_of_combinations)
+{
+    static const struct {
+        known system;
+        const char *group;
+    } known_ones[] = {
+        {{"a:angle b:angle c:angle", "(a'^2 + sin(a)^2*b'^2 + cos(a)^2*c'^2)/2", "domain: {a: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, "SO(3)"},
+        {{"r f:angle", "(r'^2 + sinh(r)^2*f'^2)/2", "domain: {r: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, "Aff(1)"},
+        {{"x y", "2*(x'^2 + y'^2)/(1 - x^2 - y^2)^2", "domain: {x: [-0.5, 0.5], y: [-0.5, 0.5]}", "", 0, 0, UNTESTED, false, NULL}, "Aff(1)"},
+    };
+    for (size_t i = 0; i < sizeof known_ones / sizeof *known_ones; i++) {
+        nh_reduction *r = reduced(&known_ones[i].system);
+        cr_assert(r->stages > 0);
+        cr_expect_str_eq(r->stage[0].group, known_ones[i].group, "%zu: %s", i, r->stage[0].group);
+        cr_expect_eq(r->stage[0].shown->n, 0, "%zu: %zu shape coordinates", i, r->stage[0].shown->n);
+        nh_reduction_free(r);
+    }
 }
 
 /* With NHSYM_SWEEPS=all the whole table; else one system in three, under sanitizers one in fifteen. */

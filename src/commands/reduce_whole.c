@@ -168,13 +168,10 @@ bool nh_reduction_whole(nh_reduction_bench *b, const nh_action *action, nh_error
 bool nh_reduction_free_subgroup(nh_reduction *r, nh_action *out)
 {
     const nh_action *g = &r->group->action;
-    size_t d = g->d, *index = nh_alloc_array(d + 1, sizeof *index),
-           n = nh_group_free_subset(r->group, &r->options, index);
-    double *t = nh_alloc_array(d * n + 1, sizeof *t);
-    for (size_t i = 0; i < n; i++) t[index[i] + i * d] = 1;
+    double *t = nh_alloc_array(g->d * g->d + 1, sizeof *t);
+    size_t n = nh_group_free_basis(r->group, &r->options, t);
     if (n) nh_action_sub(out, g, n, t, &r->options);
     bool good = n && out->closes && out->free;
-    nh_free(index);
     nh_free(t);
     return good;
 }

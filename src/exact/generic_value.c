@@ -8,7 +8,7 @@
 #include "exact/jet_independent.h"
 #include "exact/residue_matrix.h"
 
-enum { canonical_length = 2000, order = 2, most_points = 100, most_symbols = 64 };
+enum { canonical_length = 2000, order = 2, most_points = 400, most_symbols = 64 };
 
 typedef struct {
     nh_jet_point *point;

@@ -326,13 +326,13 @@ bool nh_generators_find(nh_generators *out, const nh_kinetic *k, const nh_jets *
 {
     *out = (nh_generators){0};
     nh_joint_fields joints = {0};
-    nh_generators other[2 * NH_LIBRARY_LEVELS];
+    nh_generators other[2 * NH_LIBRARY_LEVELS + 1];
     size_t others = 0;
     bool good = true, enough = false;
     for (int level = 1;
          level <= NH_LIBRARY_LEVELS && good && !enough && !(out->level && (nh_budget_spent() || nh_late())); level++) {
         bool more = false, full = false; /* more products would find no room */
-        for (size_t together = 2; together <= (jets ? 3 : 2) && good && !enough && !full; together++) {
+        for (size_t together = level == 1 ? 1 : 2; together <= (jets ? 3 : 2) && good && !enough && !full; together++) {
             nh_generators before = *out;
             outcome o = one_library(out, k, jets, level, together, &joints, options, error);
             if (o.more && before.count) other[others++] = before;

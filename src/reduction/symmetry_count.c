@@ -8,7 +8,7 @@
 #include "exact/residue_matrix.h"
 #include "reduction/symmetry_rays.h"
 
-enum { canonical_length = 2000, most_points = 60, most_rays = 12, most_nodes = 400000, most_coordinates = 16 };
+enum { canonical_length = 2000, most_points = 400, most_rays = 12, most_nodes = 400000, most_coordinates = 16 };
 
 enum { OF_METRIC, OF_POTENTIAL, OF_CONSTRAINTS };
 

@@ -1,0 +1,110 @@
+/* group_free: subgroups that act freely, among combinations of the generators (group.h). */
+#include <math.h>
+#include <string.h>
+
+#include "base/linalg.h"
+#include "reduction/group.h"
+#include "reduction/subspace.h"
+
+typedef struct {
+    const nh_group *g;
+    const nh_options *options;
+    size_t d, best;
+    double *t, *kept; /* d x d: a candidate, the best one so far */
+} search;
+
+/* Brings n columns of t to echelon form with short binary fractions; false where there are others: their sum would not
+ * be exact. */
+static bool tidy(search *s, size_t n)
+{
+    static const double small = 1e-8, parts = 16;
+    nh_column_echelon(s->d, n, small, s->t);
+    for (size_t i = 0; i < n * s->d; i++) {
+        double nearest = round(s->t[i] * parts) / parts;
+        if (!(fabs(s->t[i] - nearest) <= small)) return false;
+        s->t[i] = nearest;
+    }
+    return true;
+}
+
+/* Keeps the n columns of t if they span a larger subalgebra that acts freely. */
+static void try_columns(search *s, size_t n)
+{
+    nh_action sub;
+    if (n <= s->best || n > s->g->action.orbit || !tidy(s, n)) return;
+    nh_action_sub(&sub, &s->g->action, n, s->t, s->options);
+    bool good = sub.closes && sub.free;
+    for (size_t a = 0; a < n; a++) good &= sub.generator[a].invariant;
+    nh_action_clear(&sub);
+    if (!good) return;
+    s->best = n;
+    memcpy(s->kept, s->t, s->d * n * sizeof *s->t);
+}
+
+/* Sums of ideals: SO(3) of SO(3) x SO(3) on a sphere of dimension three. */
+static void try_ideals(search *s)
+{
+    enum { most = 8 };
+    const nh_algebra_report *r = &s->g->report;
+    size_t pieces = r->pieces < most ? r->pieces : most;
+    for (size_t set = 1; set < (size_t)1 << pieces; set++) {
+        size_t n = 0;
+        for (size_t i = 0; i < pieces; i++)
+            if (set >> i & 1) n += r->piece[i].dimension;
+        if (n <= s->best || n > s->g->action.orbit) continue;
+        n = 0;
+        for (size_t i = 0; i < pieces; i++)
+            if (set >> i & 1) {
+                memcpy(s->t + n * s->d, r->piece[i].basis, r->piece[i].dimension * s->d * sizeof *s->t);
+                n += r->piece[i].dimension;
+            }
+        try_columns(s, n);
+    }
+}
+
+/* A generator x with the fields y that ad_x stretches, [x, y] = l y with l > 0: of the isometries of a hyperbolic space
+ * these act simply transitively (Iwasawa). */
+static void try_stretched(search *s)
+{
+    static const double small = 1e-8;
+    size_t d = s->d;
+    double *ad = nh_alloc_array(3 * d * d + 3 * d + 1, sizeof *ad), *copy = ad + d * d, *basis = copy + d * d,
+           *re = basis + d * d, *im = re + d, *x = im + d;
+    for (size_t a = 0; a < d; a++) {
+        size_t n = 1;
+        for (size_t i = 0; i < d; i++) x[i] = i == a;
+        nh_algebra_ad(&s->g->action.algebra, x, ad);
+        memcpy(copy, ad, d * d * sizeof *ad);
+        if (!nh_eigen(d, copy, re, im, NULL)) continue;
+        double size = nh_largest(d * d, ad);
+        memcpy(s->t, x, d * sizeof *x);
+        for (size_t k = 0; k < d; k++) {
+            bool again = false;
+            for (size_t j = 0; j < k; j++) again |= fabs(re[j] - re[k]) <= small * size;
+            if (again || !(re[k] > small * size) || fabs(im[k]) > small * size) continue;
+            memcpy(copy, ad, d * d * sizeof *ad);
+            for (size_t i = 0; i < d; i++) copy[i * (d + 1)] -= re[k];
+            size_t more = nh_kernel(d, d, copy, small * size, basis, NULL, NULL);
+            if (n + more > d) break;
+            memcpy(s->t + n * d, basis, more * d * sizeof *basis);
+            n += more;
+        }
+        if (n > 1) try_columns(s, n);
+    }
+    nh_free(ad);
+}
+
+size_t nh_group_free_basis(const nh_group *g, const nh_options *options, double *t)
+{
+    size_t d = g->action.d, *index = nh_alloc_array(d + 1, sizeof *index);
+    search s = {g, options, d, nh_group_free_subset(g, options, index), nh_alloc_array(d * d + 1, sizeof *t), t};
+    memset(t, 0, d * d * sizeof *t);
+    for (size_t i = 0; i < s.best; i++) t[index[i] + i * d] = 1;
+    if (s.best < g->action.orbit && !g->missing && g->action.closes) {
+        try_ideals(&s);
+        try_stretched(&s);
+    }
+    nh_free(s.t);
+    nh_free(index);
+    return s.best;
+}
