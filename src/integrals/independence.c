@@ -69,8 +69,8 @@ typedef struct {
 
 enum { NO_VALUE = -2, NO_GRADIENT = -1 };
 
-/* Removes the accepted directions (twice, because of rounding); returns the remaining part of |g|, or NO_GRADIENT when g
- * is not above `noise`, or NO_VALUE. */
+/* Removes the accepted directions (twice, because of rounding); returns the remaining part of |g|, or NO_GRADIENT when
+ * g is not above `noise`, or NO_VALUE. */
 static double remaining(const frame *f, size_t point, double *g, double noise)
 {
     double before = 0, after = 0;
