@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "integrals/independence.h"
+#include "integrals/real_where.h"
 #include "integrals/prove.h"
 #include "integrals/symmetry.h"
 #include "integrals/gradient_rank.h"
@@ -199,6 +200,20 @@ Test(independence, what_is_real_elsewhere_is_no_evidence)
         cr_expect_eq(got[3], NH_DOUBTFUL, "real nowhere: %d", (int)got[3]);
     }
     nh_points_free(points);
+    mechanics_clear(&x);
+}
+
+/* A root that is real in the whole sampling box, and not beyond it, has its condition, too: v < 2 k with |v| <= 1.5. */
+Test(independence, where_roots_are_real_beyond_the_box)
+{
+    static const char *const roots[] = {"sqrt(v)*sqrt(2*k - v)", "sqrt(v)*sqrt(7 - v)", "sqrt(v)*log(9 + x)", "sqrt(v)*sqrt(5 - omega^2)"};
+    mechanics x = sleigh(1.3, 0.7, 1.5);
+    for (size_t i = 0; i < 4; i++) {
+        nh_ex positive[NH_MOST_REAL_WHERE];
+        cr_expect_eq(nh_real_where(x.model, formula(x.model, roots[i]), positive), 2u, "%s", roots[i]);
+    }
+    nh_ex none[NH_MOST_REAL_WHERE];
+    cr_expect_eq(nh_real_where(x.model, formula(x.model, "sqrt(1 + v^2)*log(2 + x^2)"), none), 0u);
     mechanics_clear(&x);
 }
 

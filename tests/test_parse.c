@@ -86,6 +86,17 @@ static const struct {
     {"0.1e1000", -1}, {"2-1", 1}, {"2^(1/2)", 1.4142135623730951}, {"4^-.5", 0.5},
 };
 
+/* As formats.md promises: a decimal is exact, with or without a point or an exponent, up to 80 digits. */
+Test(parse, long_decimals_are_exact)
+{
+    static const char *const same[][2] = {{"0.7071067811865475244", "7071067811865475244/10^19"}, {"3.14159265358979323846264338327950288", "314159265358979323846264338327950288/10^35"},
+                                          {"123456789012345678901.5e-3", "1234567890123456789015/10^4"}, {"0.00000000000000000000123456789012345678", "123456789012345678/10^38"},
+                                          {"1.000000000000000000000000", "1"}, {"0.10000000000000000000000000001", "1/10+1/10^29"}, {"5e-100", "5/10^100"}, {"000.50", "1/2"}, {"0.000", "0"}};
+    nh_dag *d = nh_dag_create();
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) cr_expect_eq(parsed(d, same[i][0]), parsed(d, same[i][1]), "%s", same[i][0]);
+    nh_dag_free(d);
+}
+
 Test(parse, values)
 {
     nh_dag *d = nh_dag_create();

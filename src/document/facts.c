@@ -225,8 +225,8 @@ const char *nh_facts_search(const nh_analysis *r)
                                left_out, left_out == 1 ? "is" : "are", left_out == 1 ? "it" : "them");
     if (nh_analysis_by_trial(r))
         return nh_arena_printf(r->arena,
-                               "The values of the unknowns were sought by trial: %ld of them, in %zu of %.0f equal parts "
-                               "of their box. This proves nothing about other values.",
+                               "The values of the unknowns were sought by trial: %ld of them, in %zu of %.0f equal "
+                               "parts of their box. This proves nothing about other values.",
                                r->hits->evaluations, r->hits->visited,
                                pow((double)r->hits->parts, (double)r->hits->unknowns));
     if (nh_facts_given(r))

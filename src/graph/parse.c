@@ -15,11 +15,11 @@
 enum {
     max_depth = 200,
     max_name = 63,
-    max_power = 18 /* power of ten up to which a double is exact */,
-    max_typed_power = 310,
+    max_power = 310, /* of ten, in an exact decimal */
+    max_printed_power = 18,
+    fits_64 = 18, /* digits */
     max_digits = 80
 };
-static const int64_t typed_digits = 1000000000000000;
 
 static const char DIGITS[] = "0123456789",
                   WORD[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
@@ -164,34 +164,36 @@ static bool stays_finite(parser *p, nh_ex e, size_t at)
 
 /* ---- numbers ---- */
 
-/* Reads digits with an optional point: their value as a whole number, if it fits, and the power of ten by which it is
- * multiplied. */
-static const char *mantissa(const char *s, int64_t *digits, long *scale, bool *exact)
+/* Reads digits with an optional point: the digits alone, from the first that is not 0, and the power of ten by which
+ * they are multiplied.  Digits that find no room are left out: *exact is false. */
+static const char *mantissa(const char *s, char digits[max_digits + 1], size_t *length, long *scale, bool *exact)
 {
     bool point = false;
-    *digits = *scale = 0;
+    *length = 0;
+    *scale = 0;
     *exact = true;
     for (; isdigit((unsigned char)*s) || (*s == '.' && !point); s++) {
         if (*s == '.') {
             point = true;
             continue;
         }
-        int64_t next;
-        if (__builtin_mul_overflow(*digits, 10, &next) || __builtin_add_overflow(next, *s - '0', &next)) *exact = false;
-        else *digits = next;
+        if (*length == max_digits) *exact = false;
+        else if (*length > 0 || *s != '0') digits[(*length)++] = *s;
         *scale -= point;
     }
+    digits[*length] = 0;
     return s;
 }
 
-/* Reads digits with an optional point and exponent; the result is exact when they fit. */
+/* Reads digits with an optional point and exponent; the result is exact unless it is very long, large or small. */
 static bool number(parser *p, nh_ex *out)
 {
     const char *start = p->text + p->at, *s;
-    int64_t digits;
+    char digits[max_digits + 1];
+    size_t length;
     long scale, exponent = 0;
     bool exact;
-    s = mantissa(start, &digits, &scale, &exact);
+    s = mantissa(start, digits, &length, &scale, &exact);
     if ((*s == 'e' || *s == 'E') && strspn(s + 1 + (s[1] == '+' || s[1] == '-'), DIGITS) > 0) {
         char *end;
         exponent = strtol(s + 1, &end, 10);
@@ -199,17 +201,17 @@ static bool number(parser *p, nh_ex *out)
     }
     double value = strtod(start, NULL);
     if (!isfinite(value)) return fail(p, p->at, "this number is too large");
-    if (value == 0 && digits) return fail(p, p->at, "this number is too small: it would become 0");
+    if (value == 0 && length) return fail(p, p->at, "this number is too small: it would become 0");
     p->at = (size_t)(s - p->text);
     bool moderate = exponent > -1000 && exponent < 1000; /* so that the sum below cannot overflow */
-    /* a decimal of 16 digits or more was printed from some double */
-    bool typed = llabs(digits) < typed_digits && labs(exponent + scale) <= max_typed_power;
-    size_t length = (size_t)(s - start);
-    if (!exact && strspn(start, DIGITS) == length && length <= max_digits) {
-        *out = nh_number(p->dag, nh_num_of_digits(start, length));
-    } else if (exact && moderate && (typed || labs(exponent + scale) <= max_power)) {
+    bool printed = length >= 16 && length <= 17; /* from some double, as far as one can tell */
+    if (length == 0) {
+        *out = nh_int(p->dag, 0);
+    } else if (exact && moderate && labs(exponent + scale) <= (printed ? max_printed_power : max_power)) {
+        bool fits = length <= fits_64;
+        nh_num whole = fits ? nh_num_int(strtoll(digits, NULL, 10)) : nh_num_of_digits(digits, length);
         nh_num ten = nh_num_pow(nh_num_int(10), exponent + scale);
-        *out = nh_number(p->dag, nh_num_mul(nh_num_int(digits), ten));
+        *out = nh_number(p->dag, nh_num_mul(whole, ten));
     } else {
         *out = nh_real(p->dag, value);
     }

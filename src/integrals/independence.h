@@ -4,7 +4,7 @@
  * before it, at generic points: the median of the remaining fraction decides.  A gradient that is rounding against what
  * the function is summed from (below eps/doubt of it) is none: so (R - r)/sqrt((R - r)^2), constant wherever it is
  * smooth, is distinguished from a current.  Products of currents are not used: they would need degrees of their own.
- * Only points count at which every accepted function has a value: log(w) and log(-w) are never both real, and
+ * Only points count at which every accepted function has a value: log(w) and log(-w), which are never both real, are
  * doubtful. */
 #ifndef NH_INDEPENDENCE_H
 #define NH_INDEPENDENCE_H

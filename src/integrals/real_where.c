@@ -38,7 +38,8 @@ static int certain_sign(const nh_model *o, nh_ex e)
     return sign;
 }
 
-/* Does it depend on the state, and have either sign in the sampling box, where the system itself is real? */
+/* Does it depend on the state, and have either sign in the sampling box or far beyond it, where the system itself is
+ * real? */
 static bool has_both_signs(const nh_model *o, nh_ex e)
 {
     const nh_chart *c = o->chart;
@@ -53,13 +54,22 @@ static bool has_both_signs(const nh_model *o, nh_ex e)
     memcpy(all + 2, o->a, o->n * sizeof *all);
     nh_tape *tape = nh_model_tape(o, count, all);
     nh_tape_work *work = nh_tape_work_create(tape);
-    for (size_t p = 0; p < c->probes; p++) {
+    double *z = nh_alloc_array(o->width + 1, sizeof *z);
+    for (size_t p = 0; p < 3 * c->probes; p++) {
+        static const double stretch[] = {1, 4, 16};
         bool real = true;
-        nh_tape_eval(tape, work, c->probe + p * c->width, value);
+        for (size_t j = 0; j < o->width; j++) {
+            double middle = (c->low[j] + c->high[j]) / 2;
+            z[j] = c->probe[p / 3 * c->width + j];
+            if (p % 3 && j < o->width - c->implicit) z[j] = middle + stretch[p % 3] * (z[j] - middle);
+        }
+        if (p % 3 && !nh_chart_complete(c, z)) continue;
+        nh_tape_eval(tape, work, z, value);
         for (size_t i = 1; i < count; i++) real &= isfinite(value[i]);
         above |= real && value[0] > 0;
         below |= real && value[0] < 0;
     }
+    nh_free(z);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(value);
