@@ -380,7 +380,11 @@ static void register_known(nh_counter *c)
             c->named[c->known] = named;
             c->current[c->known++] = e;
         }
-        if (!good) x->obstacle = x->point->obstacle = NULL, x->point->kernels = kernels;
+        if (!good) { /* the roots of the equations are functions of each other as before */
+            x->point->kernels = kernels;
+            x->point->obstacle = NULL;
+            x->obstacle = nh_jet_point_related(x->point);
+        }
     }
 }
 
