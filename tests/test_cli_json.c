@@ -121,7 +121,8 @@ static size_t null_numbers(const cJSON *item)
                                         "chart_crossing", "nullspace", "series", "latex", "command", "analysis_file", "accuracy",
                                         "semiholonomic", "branch", "on_both_branches",
                                         "completeness", "in_time", "obstacle", "of", "proved", "missing_at", "equations",
-                                        "explicit_motion", "intervals", "fixed", "region", "where", "counted_space", "known"};
+                                        "explicit_motion", "intervals", "fixed", "region", "where", "counted_space", "known",
+                                        "tried", "state", "rate", "digits"};
     size_t n = 0;
     if (cJSON_IsNull(item)) {
         for (size_t i = 0; i < COUNT(texts); i++)

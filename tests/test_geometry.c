@@ -521,3 +521,23 @@ Test(geometry, kinds_of_constraints, PLAIN_ONLY)
         if (KINDS[i].text == NULL || KINDS[i].text == AFFINE || KINDS[i].text == PROJECTILE_EXPLICIT || KINDS[i].text == PROJECTILE_IMPLICIT)
             check_kind(&KINDS[i], true);
 }
+
+/* A mass on a floor: the floor pushes upward, whatever the sign of its multiplier. */
+Test(geometry, the_reaction_is_minus_the_multiplier_times_the_slope_of_its_constraint)
+{
+    static const char *const constraint[] = {"y' = 0", "-y' = 0", "2*y' + x' = 0"};
+    for (size_t i = 0; i < 3; i++) {
+        char text[400];
+        snprintf(text, sizeof text, "parameters: {m: 2, g: 9.81}\ncoordinates: [x, y]\nlagrangian: \"m/2*(x'^2 + y'^2) - m*g*y\"\nconstraints: [\"%s\"]\n", constraint[i]);
+        mechanics x = mechanics_of_text(text, NH_CHART_AUTO);
+        nh_dag *d = x.model->dag;
+        const nh_constraint *c = &x.system->constraint[0];
+        for (size_t s = 0; s < 2; s++) {
+            nh_ex slope = nh_diff(d, nh_sub(d, c->lhs, c->rhs), x.system->coordinate[s].v);
+            nh_ex sum = nh_add(d, x.model->reaction[s], nh_mul(d, x.model->mu[0], slope));
+            cr_expect(nh_is_number(d, nh_canonical_sum(d, sum), 0), "%s, coordinate %zu", constraint[i], s);
+        }
+        if (i < 2) cr_expect_eq(nh_canonical_sum(d, nh_sub(d, x.model->reaction[1], formula(x.model, "m*g"))), nh_int(d, 0), "%s", constraint[i]);
+        mechanics_clear(&x);
+    }
+}

@@ -155,3 +155,45 @@ Test(truth, trials_that_find_nothing_prove_nothing, .timeout = 120)
         }
     place_clear(&p);
 }
+
+/* ---- divisors of parameters ---- */
+
+static const struct {
+    const char *system;
+    size_t divisors; /* of all currents together */
+} divided[] = {
+    {"coordinates: [x]\nparameters: {w: 1.3, W: 0.7}\nlagrangian: x'^2/2 - w^2*x^2/2 + x*cos(W*t)\n", 1},
+    {"coordinates: [x]\nparameters: {w: 1.3}\nlagrangian: x'^2/2 - w^2*x^2/2 + x*cos(t)\n", 1},
+    {"coordinates: [x]\nparameters: {m: 1.3, k: 0.7}\nlagrangian: m*x'^2/2 - k*x^2/2\n", 0},
+};
+
+/* ("For all parameter values", with 1/(w^2 - W^2) in the formula.) */
+Test(truth, parameters_at_which_a_formula_has_a_pole_are_told)
+{
+    for (size_t i = 0; i < sizeof divided / sizeof *divided; i++) {
+        place p = place_make();
+        write_here(&p, "s.yaml", divided[i].system);
+        told t = tell(&p, "analyze s.yaml", 0);
+        const nh_json *currents = nh_json_get(t.json, "currents");
+        size_t some = 0;
+        for (size_t k = 0; k < nh_json_count(currents); k++) some += nh_json_count(nh_json_get(nh_json_entry(currents, k), "nonzero"));
+        cr_expect(divided[i].divisors ? some > 0 : some == 0, "%s: %zu", divided[i].system, some);
+        cr_expect((strstr(t.text, "!= 0") != NULL) == (divided[i].divisors > 0), "%s:\n%s", divided[i].system, t.text);
+        told_clear(&t);
+        place_clear(&p);
+    }
+}
+
+/* ---- integrals at special values ---- */
+
+/* (One more of degree 1 was counted at k = 0, and not shown: it is a function of the others.) */
+Test(truth, what_is_more_at_a_special_value_is_shown)
+{
+    place p = place_make();
+    write_here(&p, "s.yaml", "coordinates: [x, y, z]\nparameters: {k: 0.7}\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - k*x^2/2 - y^2/2\n"
+                             "constraints: [\"z' = y*x'\"]\n");
+    told t = tell(&p, "classify s.yaml --over k --degree 2", 0);
+    cr_expect(strstr(t.text, "x'*sqrt(y^2 + 1)"), "%s", t.text);
+    told_clear(&t);
+    place_clear(&p);
+}

@@ -86,11 +86,13 @@ nh_points *nh_verification_points(nh_model *model, const nh_options *options, nh
     return nh_points_create(model, test_points, 1.2, (uint64_t)options->seed + 7, error);
 }
 
-/* A value that is no more than rounding of what cancels within the terms is taken relative to that. */
+/* A value that is no more than rounding of what cancels within the terms is taken relative to that.  Of points that
+ * are equally bad up to rounding, the first. */
 static bool worst_point(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term, double *residual)
 {
+    static const double clearly = 1.001;
     size_t count = points->count, worst = count;
-    double *value = nh_alloc_array((n + 1) * count + 1, sizeof *value), most = 0, rate = 0;
+    double *value = nh_alloc_array((n + 1) * count + 1, sizeof *value), most = 0, rate = 0, there = 0;
     nh_ex within = nh_int(v->model->dag, 0);
     for (size_t j = 0; j < n; j++) within = nh_add(v->model->dag, within, nh_terms_uncancelled(v->model->dag, term[j]));
     nh_points_evaluate(points, v->model, n, term, value);
@@ -103,8 +105,10 @@ static bool worst_point(nh_verification *v, const nh_points *points, size_t n, c
         }
         if (fabs(sum) <= rounding * value[n * count + p]) size = value[n * count + p];
         double r = size > 0 ? fabs(sum) / size : 0;
-        if (!isfinite(r) || r <= most) continue;
-        most = r;
+        if (!isfinite(r) || r == 0) continue;
+        most = fmax(most, r);
+        if (r <= clearly * there) continue;
+        there = r;
         worst = p;
         rate = sum;
     }

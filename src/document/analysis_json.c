@@ -375,9 +375,9 @@ static void put_current(const writer *w, nh_json *currents, const nh_current *f)
     nh_json_put_number(item, "residual", f->quotient);
     if (w->r->model->chart->branch) nh_json_put_bool(item, "on_both_branches", f->on_both);
     else nh_json_put_null(item, "on_both_branches");
-    nh_ex positive[NH_MOST_REAL_WHERE];
-    put_expressions(w, item, "real_where_positive", f->series ? 0 : nh_real_where(w->r->model, f->phi, positive),
-                    positive);
+    nh_ex found[NH_MOST_REAL_WHERE];
+    put_expressions(w, item, "real_where_positive", f->series ? 0 : nh_real_where(w->r->model, f->phi, found), found);
+    put_expressions(w, item, "nonzero", f->series ? 0 : nh_real_where_divisors(w->r->model, f->phi, found), found);
     nh_json_put_bool(item, "exact", f->exact);
     nh_json_put_number(item, "printed_digits", floor(f->printed_digits));
     nh_json_put_bool(item, "independent", f->independence == NH_INDEPENDENT);

@@ -18,10 +18,17 @@
 
 static void real_where(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
-    nh_ex positive[NH_MOST_REAL_WHERE];
-    size_t n = f->series ? 0 : nh_real_where(r->model, f->phi, positive);
+    nh_ex found[NH_MOST_REAL_WHERE];
+    bool parameters = !f->series && (f->proof.all_parameters || f->proof.fixed);
+    size_t n = parameters ? nh_real_where_divisors(r->model, f->phi, found) : 0;
     for (size_t i = 0; i < n; i++) {
-        char *text = nh_print_string(r->model->dag, positive[i]);
+        char *text = nh_print_string(r->model->dag, found[i]);
+        nh_pen_say(p, i ? " and <%s> != 0" : " with <%s> != 0", text);
+        nh_free(text);
+    }
+    n = f->series ? 0 : nh_real_where(r->model, f->phi, found);
+    for (size_t i = 0; i < n; i++) {
+        char *text = nh_print_string(r->model->dag, found[i]);
         nh_pen_say(p, i ? " and <%s> > 0" : ", real where <%s> > 0", text);
         nh_free(text);
     }

@@ -47,6 +47,8 @@ void nh_classification_plane_excluded(const nh_classified_plane *classified, boo
 
 /* Writes every line of the text as words; the text is cleared. */
 void nh_classification_write_lines(nh_pen *pen, nh_text *text);
+/* The currents with these indices; `index` NULL: all, also functions of others that are polynomial in
+ * the velocities: the numbers by degree count them. */
 void nh_classification_write_currents(nh_pen *pen, const nh_analysis *result, size_t count, const size_t *index);
 /* Numbers by degree, from the first degree at which the number differs from that for almost all values. */
 void nh_classification_write_numbers(const nh_classified *classified, nh_pen *pen, size_t rows,

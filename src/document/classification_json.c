@@ -50,6 +50,7 @@ static void put_head(const nh_classified *x, nh_json *root)
 void nh_classification_put_currents(const nh_analysis *r, size_t count, const size_t *index, nh_json *to)
 {
     nh_json *list = nh_json_put_array(to, "currents");
+    if (r && !index) count = r->count + r->furthers;
     for (size_t k = 0; r && k < count; k++) {
         const nh_current *f = nh_classified_current(r, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
@@ -191,7 +192,7 @@ static void put_special(const nh_classified *x, size_t index, nh_json *list)
     nh_json_put_bool(item, "proved", (at->result || at->shown) && at->complete >= v->first);
     nh_json_put_text(item, "shown", at->shown);
     nh_json_put_text(item, "not_constructed_because", at->why);
-    nh_classification_put_currents(at->result, at->result ? at->result->count : 0, NULL, item);
+    nh_classification_put_currents(at->result, 0, NULL, item);
 }
 
 /* Values at which the equations are singular, and values at which the number was not decided. */

@@ -24,6 +24,7 @@ void nh_classification_write_lines(pen *p, nh_text *text)
 
 void nh_classification_write_currents(pen *p, const nh_analysis *r, size_t count, const size_t *index)
 {
+    if (!index) count = r->count + r->furthers;
     for (size_t k = 0; k < count; k++) {
         const nh_current *f = nh_classified_current(r, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
@@ -65,7 +66,7 @@ void nh_classification_write_value(const nh_classified *x, pen *p, const nh_clas
         nh_classification_write_no_currents(x, p, at->why);
         return;
     }
-    nh_classification_write_currents(p, at->result, at->result->count, NULL);
+    nh_classification_write_currents(p, at->result, 0, NULL);
     if (at->complete >= first) nh_pen_words(p, "all of them proved, and complete to degree %zu", at->complete);
     else nh_pen_words(p, "%s", nh_classification_fewer);
 }

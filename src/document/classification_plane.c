@@ -133,7 +133,7 @@ static void put_json_point(const plane *x, const nh_classified_point *p, nh_json
                          : nh_classified_surface_words(x->family, &x->plane->curve[p->curve].polynomial));
     nh_classification_put_found(item, x->plane->rows, p->first, p->number, r && p->at->complete >= p->first,
                                 p->at->why);
-    nh_classification_put_currents(r, r ? r->count : 0, NULL, item);
+    nh_classification_put_currents(r, 0, NULL, item);
 }
 
 char *nh_classification_plane_json(const plane *x, const nh_run *run)

@@ -222,7 +222,7 @@ static void put_special(const space *x, nh_json *list)
         nh_json_put_text(item, "on", nh_classified_surface_words(x->family, x->part[q->part].polynomial));
         nh_classification_put_found(item, x->space->rows, q->at->first, q->at->number,
                                     r && q->at->at->complete >= q->at->first, q->at->at->why);
-        nh_classification_put_currents(r, r ? r->count : 0, NULL, item);
+        nh_classification_put_currents(r, 0, NULL, item);
     }
 }
 

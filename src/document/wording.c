@@ -39,9 +39,9 @@ static const nh_glossary_entry entries[] = {
     {"closure", "The fields Gamma, U_1, .. with all their brackets.  What it leaves constant are the currents with "
                 "[Gamma,Z] in the canonical "
                 "distribution; its rank bounds their number (--equations)."},
-    {"multiplier", "Chetaev's multiplier mu_a, one for each constraint: the force that keeps constraint a is mu_a "
-                   "times its derivatives by the velocities."},
-    {"reaction", "The force of the constraints along each coordinate: the sum over the constraints a of mu_a "
+    {"multiplier", "Chetaev's multiplier mu_a, one for each constraint: dL/dq - (dL/dv)' = mu_a df^a/dv, so the force "
+                   "that keeps constraint a is minus mu_a times its derivatives by the velocities."},
+    {"reaction", "The force of the constraints along each coordinate: minus the sum over the constraints a of mu_a "
                  "times the derivative of constraint a by the velocity of the coordinate."},
     {"mu", "mu_a: Chetaev's multiplier of constraint a; in nhsym reduce the momentum of the group along its "
            "field e_a, in the body frame."},

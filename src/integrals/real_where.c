@@ -98,6 +98,22 @@ static bool may_be_negative(const nh_model *o, nh_ex e)
     return (is_parametric(o, e) && certain_sign(o, e) == 0) || has_both_signs(o, e);
 }
 
+size_t nh_real_where_divisors(const nh_model *o, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE])
+{
+    nh_dag *d = o->dag;
+    NH_LIST(node);
+    size_t count = 0, n = nh_products_in(d, e, &node);
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < nh_arity(d, node[i]); k++) {
+            nh_ex base = without_number(d, nh_child(d, node[i], k)), x = nh_exponent_of(d, node[i], k);
+            bool divides = nh_kind_of(d, x) == NH_NUMBER && nh_num_value(nh_number_of(d, x)) < 0, known = false;
+            for (size_t j = 0; j < count; j++) known |= out[j] == base;
+            if (divides && !known && count < NH_MOST_REAL_WHERE && is_parametric(o, base) && !certain_sign(o, base))
+                out[count++] = base;
+        }
+    return count;
+}
+
 size_t nh_real_where(const nh_model *o, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE])
 {
     enum { most = 400 };

@@ -14,4 +14,8 @@ enum { NH_MOST_REAL_WHERE = 8 };
  * either sign in the sampling box.  Writes them to out; returns how many. */
 size_t nh_real_where(const nh_model *model, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE]);
 
+/* The divisors of e that depend on parameters alone and may vanish although every parameter keeps its sign: e means
+ * nothing where one of them is zero.  Writes them to out; returns how many. */
+size_t nh_real_where_divisors(const nh_model *model, nh_ex e, nh_ex out[NH_MOST_REAL_WHERE]);
+
 #endif

@@ -142,24 +142,27 @@ static bool mean_over_turn(const nh_slice *s, nh_tape *tape, nh_tape_work *work,
 /* The period of Theta along a turn of x^j through a place.  The means over equidistant steps converge exponentially
  * where Theta is regular on the way, wherever they start; where it has a pole, as where the orbits become tangent to D,
  * they depend on the start: then the turn is no curve in the region in which the stage is defined, and there is no
- * period: false. */
-static bool period(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, const double *place, double small,
-                   double *mean, double *largest)
+ * period.  Is there one that is not zero: above `small`, and far above the error of the mean? */
+static bool has_period(const nh_slice *s, nh_tape *tape, nh_tape_work *work, size_t j, const double *place,
+                       double small)
 {
     enum { fewest = 24, most = 1536 };
+    static const double far_above = 1e3;
     size_t m = s->kinetic->m;
     double *q = nh_alloc_array(m + 1, sizeof *q);
-    bool regular = true, found = false;
+    bool regular = true, zero = false, other_than_zero = false;
     memcpy(q, place, m * sizeof *q);
-    for (size_t steps = fewest; steps <= most && regular && !found; steps *= 2) {
-        double other = 0;
-        *largest = 0;
-        regular = mean_over_turn(s, tape, work, j, steps, 0.37, q, mean, largest) &&
-                  mean_over_turn(s, tape, work, j, steps, 0.11, q, &other, largest);
-        found = regular && fabs(*mean - other) <= small * (1 + *largest);
+    for (size_t steps = fewest; steps <= most && regular && !zero && !other_than_zero; steps *= 2) {
+        double mean = 0, other = 0, largest = 0;
+        regular = mean_over_turn(s, tape, work, j, steps, 0.37, q, &mean, &largest) &&
+                  mean_over_turn(s, tape, work, j, steps, 0.11, q, &other, &largest);
+        /* per radian: compared with 1, whatever the units of the other shape coordinates are */
+        double error = fabs(mean - other), bound = small * (1 + largest);
+        zero = regular && error <= bound && fabs(mean) <= bound;
+        other_than_zero = regular && error <= bound && fabs(mean) > far_above * error && !zero;
     }
     nh_free(q);
-    return found;
+    return other_than_zero;
 }
 
 /* K^-1 acts on the first index of U_kij: the columns are the pairs (i, j), as nh_solve wants them. */
@@ -177,12 +180,8 @@ static bool many_valued(const nh_slice *s, const nh_ex *K, const nh_ex *U, doubl
     nh_tape *tape = nh_kinetic_tape(k, n * n + cube, e);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t j = 0; j < n; j++)
-        for (size_t p = 0; p < places && k->periodic[s->shape[j]] && !many; p++) {
-            /* per radian: compared with 1, whatever the units of the other shape coordinates are */
-            double mean, largest;
-            many = period(s, tape, work, j, k->place + p * k->m, small, &mean, &largest) &&
-                   fabs(mean) > small * (1 + largest);
-        }
+        for (size_t p = 0; p < places && k->periodic[s->shape[j]] && !many; p++)
+            many = has_period(s, tape, work, j, k->place + p * k->m, small);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(e);

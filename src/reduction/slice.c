@@ -270,7 +270,7 @@ static bool metric_regular(const nh_kinetic *k, const double *p, const double *q
     e[total - 1] = k->V;
     nh_kinetic_values(k, total, e, q, at);
     nh_kinetic_values(k, total, e, p, usual);
-    bool good = nh_all_finite(total, at);
+    bool told = nh_largest(m * m, usual) > 0, good = nh_all_finite(total, at); /* not where time occurs */
     for (size_t i = 0; i < m; i++) {
         for (size_t j = 0; j < m; j++) unit[i] = i == j || !k->metric ? fmax(unit[i], fabs(usual[i * m + j])) : unit[i];
         unit[i] = unit[i] > 0 ? 1 / sqrt(unit[i]) : 1;
@@ -281,7 +281,7 @@ static bool metric_regular(const nh_kinetic *k, const double *p, const double *q
     good = good && evenness(f, m, at + m * m, unit) > far * evenness(f, m, usual + m * m, unit);
     nh_free(e);
     nh_free(at);
-    return good;
+    return good || !told;
 }
 
 static bool regular_at(const nh_action *g, const size_t *along, const double *y)
