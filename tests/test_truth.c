@@ -197,3 +197,19 @@ Test(truth, what_is_more_at_a_special_value_is_shown)
     told_clear(&t);
     place_clear(&p);
 }
+
+/* ---- quasi-velocities ---- */
+
+/* (v and omega of the sleigh were defined nowhere.) */
+Test(truth, quasi_velocities_are_defined)
+{
+    place p = place_make();
+    told t = tell(&p, "analyze sleigh --tex a.tex --html a.html", 0);
+    char *tex = read_here(&p, "a.tex"), *page = read_here(&p, "a.html");
+    cr_expect(strstr(t.text, "phi' = omega") && strstr(t.text, "x' = ") && strstr(t.text, "y' = "), "%s", t.text);
+    cr_expect(tex && strstr(tex, "Velocities") && page && strstr(page, "Velocities"));
+    free(page);
+    free(tex);
+    told_clear(&t);
+    place_clear(&p);
+}

@@ -146,6 +146,16 @@ static void multipliers(nh_pen *p, const nh_model *o)
     nh_free(label);
 }
 
+/* "x' = v*cos(phi)": what the quasi-velocities mean. */
+static void velocities(nh_pen *p, const nh_model *o)
+{
+    if (!o->chart->quasi || o->framed) return;
+    const char **label = nh_alloc_array(o->m + 1, sizeof *label);
+    for (size_t s = 0; s < o->m; s++) label[s] = nh_arena_printf(o->arena, "%s'", o->system->coordinate[s].name);
+    block(p, o->dag, "Velocities", o->m, label, o->rho);
+    nh_free(label);
+}
+
 static void equations(nh_pen *p, const nh_model *o, bool more)
 {
     bool same = o->Lbar == o->E; /* no potential */
@@ -156,6 +166,7 @@ static void equations(nh_pen *p, const nh_model *o, bool more)
     nh_pen_open(p, NH_PEN_SUBHEADING, NULL, NULL);
     nh_pen_say(p, "In {%s}", o->chart->name);
     nh_pen_close(p, NH_PEN_SUBHEADING);
+    velocities(p, o);
     if (!p->ink->brief)
         block(p, o->dag, o->k ? "Constrained Lagrangian and energy" : "Lagrangian and energy", same ? 1 : 2,
               (const char *const[]){same ? both : written, "E"}, (const nh_ex[]){o->Lbar, o->E});
