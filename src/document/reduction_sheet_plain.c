@@ -38,8 +38,8 @@ nh_sheet *nh_reduction_brackets_sheet(const nh_reduction *r, const nh_action *g)
     put_brackets(s, g);
     s->section->words =
         s->section->lines
-            ? "Brackets of the Lie algebra, $[e_{a},e_{b}]=C^{c}_{a,b} e_{c}$: minus the brackets of the fields. Those that "
-              "are not listed vanish."
+            ? "Brackets of the Lie algebra, $[e_{a},e_{b}]=C^{c}_{a,b} e_{c}$: minus the brackets of the fields. "
+              "Those that are not listed vanish."
             : "All brackets vanish.";
     return s;
 }
