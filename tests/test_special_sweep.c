@@ -128,8 +128,8 @@ static double difference(size_t m, const double *a, const double *b)
 {
     double size[2] = {1, 1}, off = 0;
     for (size_t i = 0; i < 2 * m; i++) size[i / m] = fmax(size[i / m], fmax(fabs(a[i]), fabs(b[i])));
-    for (size_t i = 0; i < 2 * m; i++) off = fmax(off, fabs(a[i] - b[i]) / size[i / m]);
-    return isfinite(off) ? off : INFINITY;
+    for (size_t i = 0; i < 2 * m; i++) off = isfinite(a[i] - b[i]) ? fmax(off, fabs(a[i] - b[i]) / size[i / m]) : INFINITY;
+    return off;
 }
 
 /* The reference has to be better than what it judges: its error is its change with twice as many steps. */

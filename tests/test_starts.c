@@ -231,6 +231,15 @@ Test(starts, contradictions_are_explained)
     cr_expect(strstr(error.hint, "y' = 0"), "%s", error.hint);
 }
 
+/* Hinges at a right angle, pi/2 up to rounding: the given velocity follows from others of 1e16 and more. */
+Test(starts, velocities_that_follow_by_rounding_are_refused)
+{
+    nh_error error = {0};
+    nh_simulation *s = motion_of("systems/car_trailers_3.yaml", "h0=pi/2, h1=pi/2, h2=pi/2, h3=pi/2, h3'=1", 0.1, NULL, -1, &error);
+    cr_assert(!s, "it starts");
+    cr_expect(strstr(error.what, "the initial velocities violate the constraints: by these "), "%s", error.what);
+}
+
 /* A state from which no motion starts: which coordinate, and what vanishes. */
 Test(starts, singular_states_are_explained)
 {

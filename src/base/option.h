@@ -67,7 +67,7 @@
     X(transport_steps,  4000,   1,      1e9,   whole, "steps",    "largest number of steps of the transport of 1-jets")                                    \
     X(jets,             240,     1,      1e5,   whole, "unknowns", "reduce: m coordinates give m (m + 1)/2 unknowns of local symmetries of the metric; more are not solved for") \
     X(ideals,           24,      1,      1000,  whole, "dimensions", "reduce: a larger Lie algebra is not decomposed into ideals")           \
-    X(compile,          1,       0,      1e6,   real,  "",         "a motion's equations are compiled once interpreting them needed so many times the counted work of compiling; 0: never") \
+    X(compile,          1,       0,      1e6,   real,  "",         "interpreting a motion's equations may take so many times the work of compiling; then they are compiled; 0: never") \
     X(robustness_tolerance, 1e-8, 1e-14, 1e-2, real, "",         "of the motions of benchmark --robustness")                                  \
     X(robustness_error, 1e-4,    1e-12,  1,     real,  "",         "an error up to this is accurate in benchmark --robustness")              \
     X(robustness_steps, 3e4,     10,     1e10,  whole, "steps",    "step limit of benchmark --robustness; a motion beyond it is a timeout")  \

@@ -18,17 +18,7 @@ static nh_independence beside_the_found(const nh_analysis *r, nh_ex phi)
     nh_error_clear(&ignored);
     nh_points *points = nh_points_create(r->model, points_of_rank, 1, (uint64_t)r->options.seed + 202, &ignored);
     if (!points) return NH_DOUBTFUL;
-    nh_ex *list = nh_alloc_array(r->count + 1, sizeof *list);
-    nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
-    bool *exact = nh_alloc_array(r->count + 1, sizeof *exact);
-    nh_currents_list(r, list, exact);
-    list[r->count] = phi;
-    exact[r->count] = true;
-    nh_independence_test(r->model, points, r->count + 1, list, exact, r->options.sure, r->options.doubt, kind, NULL);
-    nh_independence out = kind[r->count];
-    nh_free(exact);
-    nh_free(kind);
-    nh_free(list);
+    nh_independence out = nh_currents_beside(r, points, phi, true, r->options.doubt);
     nh_points_free(points);
     return out;
 }

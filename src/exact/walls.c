@@ -128,8 +128,9 @@ static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
     w->cutting = false;
 }
 
-/* Operands have smaller indices: going downwards from e, each node is visited once. */
-void nh_walls_add(nh_walls *w, nh_dag *d, nh_ex top)
+/* The walls of functions and roots, or the poles.  Operands have smaller indices: going downwards from the top, each
+ * node is visited once. */
+static void add_below(nh_walls *w, nh_dag *d, nh_ex top, bool poles)
 {
     bool *wanted = nh_alloc_array((size_t)top + 1, sizeof *wanted);
     wanted[top] = true;
@@ -137,36 +138,24 @@ void nh_walls_add(nh_walls *w, nh_dag *d, nh_ex top)
         nh_ex e = (nh_ex)k;
         nh_kind kind = nh_kind_of(d, e);
         if (!wanted[k] || kind == NH_NUMBER || kind == NH_SYMBOL) continue;
-        if (kind == NH_FUNCTION) put_function(w, d, e);
+        if (kind == NH_FUNCTION && !poles) put_function(w, d, e);
+        else if (kind == NH_FUNCTION && nh_function_of(d, e) == NH_LOG) put_factors(w, d, nh_child(d, e, 0), false, 0);
         for (size_t i = 0; i < nh_arity(d, e); i++) {
             wanted[nh_child(d, e, i)] = true;
             if (kind != NH_PRODUCT) continue;
             nh_ex x = nh_exponent_of(d, e, i);
-            wanted[x] = true;
             bool whole = nh_kind_of(d, x) == NH_NUMBER && nh_number_of(d, x).q == 1;
-            if (!whole) put_factors(w, d, nh_child(d, e, i), true, 0);
+            if (poles) put_pole(w, d, nh_child(d, e, i), x, false, 0);
+            else if (!whole) put_factors(w, d, nh_child(d, e, i), true, 0);
+            wanted[x] |= !poles;
         }
     }
     nh_free(wanted);
 }
 
-void nh_walls_add_poles(nh_walls *w, nh_dag *d, nh_ex top)
-{
-    bool *wanted = nh_alloc_array((size_t)top + 1, sizeof *wanted);
-    wanted[top] = true;
-    for (size_t k = (size_t)top + 1; k-- > 0;) {
-        nh_ex e = (nh_ex)k;
-        nh_kind kind = nh_kind_of(d, e);
-        if (!wanted[k] || kind == NH_NUMBER || kind == NH_SYMBOL) continue;
-        bool is_log = kind == NH_FUNCTION && nh_function_of(d, e) == NH_LOG;
-        if (is_log) put_factors(w, d, nh_child(d, e, 0), false, 0);
-        for (size_t i = 0; i < nh_arity(d, e); i++) {
-            wanted[nh_child(d, e, i)] = true;
-            if (kind == NH_PRODUCT) put_pole(w, d, nh_child(d, e, i), nh_exponent_of(d, e, i), false, 0);
-        }
-    }
-    nh_free(wanted);
-}
+void nh_walls_add(nh_walls *w, nh_dag *d, nh_ex top) { add_below(w, d, top, false); }
+
+void nh_walls_add_poles(nh_walls *w, nh_dag *d, nh_ex top) { add_below(w, d, top, true); }
 
 size_t nh_walls_between(nh_dag *d, size_t n, const nh_ex *e, size_t inputs, const nh_ex *in, nh_ex *wall)
 {

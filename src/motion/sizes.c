@@ -19,8 +19,8 @@ static const double apart = 0x1p-27, noise = 1.5;
 static const double disturbance = 4;         /* roundings of each state, whose effect on the rates is measured */
 /* a state has no digits if its rounding in a step is a larger part of its size */
 static const double drowned = 1e-3;
-/* The part of the tolerance that the rounding of another state may be, or the rounding of so many times tau: steps of
- * implicit methods may be far longer than the time in which the rates change by rounding. */
+/* Rounding may take this part of the tolerance; or it may be what so many times tau make of it, because the steps of
+ * implicit methods can be far longer than tau. */
 static const double rest = 0.1, several = 4;
 /* A state that was once so many times its rounding has digits.  Near a place where the formulas lose theirs its error
  * stays below such a part of its size. */

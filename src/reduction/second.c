@@ -339,7 +339,7 @@ bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *
     nh_fail(
         error, NH_INPUT, "",
         s->weak > options->group
-            ? "the equations of the first stage do not conserve the momentum of the second group (relative residual %.2g)"
+            ? "the first stage does not conserve the momentum of the second group (relative residual %.2g)"
             : "the gyroscopic or magnetic form is not invariant under the second group (relative residual %.2g)",
         fmax(s->weak, s->invariance));
     return nh_error_hint(error, "a cyclic coordinate of the reduced metric is not sufficient");

@@ -256,22 +256,25 @@ void nh_currents_put(nh_current_checker *b, const nh_current *found)
     b->result->count++;
 }
 
-/* In doubles up to `doubt` of its gradient; from there to `sure` in ball arithmetic. */
-static bool is_known(const nh_current_checker *b, nh_ex current, bool own, double doubt)
+nh_independence nh_currents_beside(const nh_analysis *r, const nh_points *points, nh_ex current, bool own, double doubt)
 {
-    const nh_analysis *r = b->result;
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
     bool *exact = nh_alloc_array(r->count + 1, sizeof *exact);
     nh_currents_list(r, phi, exact);
     phi[r->count] = current;
     exact[r->count] = own;
-    nh_independence_test(r->model, b->generic, r->count + 1, phi, exact, r->options.sure, doubt, kind, NULL);
-    bool old = kind[r->count] != NH_INDEPENDENT;
+    nh_independence_test(r->model, points, r->count + 1, phi, exact, r->options.sure, doubt, kind, NULL);
+    nh_independence out = kind[r->count];
     nh_free(exact);
     nh_free(kind);
     nh_free(phi);
-    return old;
+    return out;
+}
+
+static bool is_known(const nh_current_checker *b, nh_ex current, bool own, double doubt)
+{
+    return nh_currents_beside(b->result, b->generic, current, own, doubt) != NH_INDEPENDENT;
 }
 
 bool nh_currents_known(const nh_current_checker *b, nh_ex current, bool exact)

@@ -28,6 +28,10 @@ const char *nh_currents_name(nh_analysis *analysis, size_t number);
 
 /* Writes the currents found so far, and which of them have no fitted numbers, as independence.h asks for them. */
 void nh_currents_list(const nh_analysis *analysis, nh_ex *phi, bool *exact);
+/* Is a function independent of the currents found, at these points?  In doubles up to `doubt` of its gradient; from
+ * there to the option `sure` in ball arithmetic.  exact: its numbers are. */
+nh_independence nh_currents_beside(const nh_analysis *analysis, const nh_points *points, nh_ex current, bool exact,
+                                   double doubt);
 
 /* Is it a function of the currents found so far, or constant?  `exact`: its numbers do not come from a fit. */
 bool nh_currents_known(const nh_current_checker *bench, nh_ex phi, bool exact);
