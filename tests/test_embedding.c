@@ -448,6 +448,68 @@ Test(embedding, a_chart_that_is_not_there)
     nh_system_free(s);
 }
 
+/* ---- independent or not: decided without rounding ---- */
+
+/* The message that refuses a system, or "" for a chart; to be freed. */
+static char *refusal(const char *text)
+{
+    nh_error error = {0};
+    char *out = calloc(1, 2000);
+    nh_system *s = system_of(text);
+    nh_chart *chart = nh_chart_create(s, NH_CHART_AUTO, 1, &error);
+    if (!chart) nh_error_format(&error, out, 2000);
+    nh_chart_free(chart);
+    nh_system_free(s);
+    return out;
+}
+
+static const struct {
+    const char *rest, *zero; /* %s: a small number, or 0 */
+} twins[] = {
+    {"constraints: [\"z' = x'\", \"z' = (1 + %s)*x'\"]\n", "rank 1"},
+    {"constraints: [\"z' + sin(x)*s' = x'\", \"2*z' + (2 + %s)*sin(x)*s' = 2*x'\"]\n", "rank 1"},
+    {"parameters: {e: %s}\nconstraints: [\"z' = y*x'\", \"z' = y*x' + e*s'\"]\n", "rank 1"},
+    {"parameters: {e: %s}\nconstraints: [\"z' = x' + s'\", \"x' = s' - e*y'\", \"z' = 2*s'\"]\n", "rank 2"},
+    {"constraints: [\"z' + s' = x'\", \"z' + (1 + %s)*s' = y*x'\"]\ndependent: [z, s]\n", "do not determine"},
+    {"constraints: [\"z' = x'\", \"z' = x' + %s*y' + 1e-12\"]\n", "have no solution"},
+    {"constraints: [\"z' = sqrt(2)*x'\", \"sqrt(3)*z' = (sqrt(6) + %s)*x'\"]\n", "rank 1"},
+};
+
+/* What depends on the others is refused, and what nearly does is not: a difference of 1e-15 is one. */
+Test(embedding, constraints_depend_or_they_do_not)
+{
+    static const char *const small[] = {"1e-3", "1e-9", "1e-12", "1e-13", "1e-15", "-1e-14"};
+    for (size_t i = 0; i < sizeof twins / sizeof *twins; i++)
+        for (size_t j = 0; j <= sizeof small / sizeof *small; j++) {
+            bool zero = j == sizeof small / sizeof *small;
+            char text[500], rest[300];
+            snprintf(rest, sizeof rest, twins[i].rest, zero ? "0" : small[j]);
+            snprintf(text, sizeof text, SPACE4 "%s", rest);
+            char *said = refusal(text);
+            if (zero) cr_expect(strstr(said, twins[i].zero), "%s%s", text, said);
+            else cr_expect_str_eq(said, "", "%s%s", text, said);
+            free(said);
+        }
+}
+
+/* Of quasi-velocities that double precision cannot tell apart nothing false is said. */
+Test(embedding, quasi_velocities_depend_or_hardly_differ)
+{
+    static const struct {
+        const char *slope, *said;
+    } given[] = {{"1 + 1e-6", ""}, {"1 + 1e-13", "hardly differ"}, {"1", "dimension 2 with 3"}};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
+        char text[500];
+        snprintf(text, sizeof text,
+                 SPACE "velocities: {names: [u, w, r], map: [\"x' = u + w\", \"y' = u + (%s)*w\", \"z' = r\"]}\n",
+                 given[i].slope);
+        char *said = refusal(text);
+        if (*given[i].said) cr_expect(strstr(said, given[i].said), "%s%s", text, said);
+        else cr_expect_str_eq(said, "", "%s%s", text, said);
+        free(said);
+    }
+}
+
 /* ---- the sampling box ---- */
 
 Test(embedding, the_box_is_the_domain_or_a_default_by_type)

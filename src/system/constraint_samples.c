@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "exact/generic_value.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "system/domain.h"
@@ -179,8 +180,59 @@ static void put_row(const nh_constraint_samples *c, size_t p, size_t i, bool emp
     for (size_t j = 0; j < c->m; j++) a[i + j * rows] = zero ? 0 : F[i + j * c->k] * c->speed[j] / c->size[i];
 }
 
-/* The largest rank of df/dv over the points, and the first constraint that depends on those before it. */
-static size_t rank_of(const nh_constraint_samples *c, size_t *redundant)
+/* df_a/dv of this velocity; none (index m): f_a at rest.  False: it contains velocities. */
+static bool linear_part(const nh_constraint_samples *c, size_t a, size_t velocity, nh_ex *e)
+{
+    const nh_system *s = c->system;
+    nh_ex f = nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs), zero = nh_int(s->dag, 0);
+    if (velocity < c->m) f = nh_diff(s->dag, f, s->coordinate[velocity].v);
+    else
+        for (size_t j = 0; j < c->m; j++) f = nh_substitute(s->dag, f, 1, &s->coordinate[j].v, &zero);
+    *e = nh_system_values(s, s->dag, f);
+    for (size_t j = 0; j < c->m; j++)
+        if (nh_depends(s->dag, *e, s->coordinate[j].v)) return false;
+    return true;
+}
+
+bool nh_constraint_samples_rank(const nh_constraint_samples *c, size_t rows, size_t columns, const size_t *column,
+                                size_t *rank)
+{
+    nh_ex *e = nh_alloc_array(rows * columns + 1, sizeof *e);
+    bool known = rows && columns && !c->written;
+    for (size_t i = 0; i < rows * columns && known; i++)
+        known = linear_part(c, i / columns, column ? column[i % columns] : i % columns, &e[i]);
+    known = known && nh_generic_rank(c->system->dag, rows, columns, e, rank);
+    nh_free(e);
+    return known;
+}
+
+/* The rank of df/dv, and the first constraint that depends on those before it; false: not known in this way. */
+static bool generic_rank_of(const nh_constraint_samples *c, size_t *rank, size_t *redundant)
+{
+    size_t part = 0;
+    *redundant = c->k;
+    if (!nh_constraint_samples_rank(c, c->k, c->m, NULL, rank)) return false;
+    for (size_t use = 1; use <= c->k && *rank < c->k && *redundant == c->k; use++) {
+        if (!nh_constraint_samples_rank(c, use, c->m, NULL, &part)) return false;
+        if (part < use) *redundant = use - 1;
+    }
+    return true;
+}
+
+/* Do linear constraints up to a, of which the last one depends on the others, have no common solution at almost all
+   positions? */
+static bool contradicts(const nh_constraint_samples *c, size_t a)
+{
+    size_t with = 0, without = 0, *column = nh_alloc_array(c->m + 1, sizeof *column);
+    for (size_t j = 0; j <= c->m; j++) column[j] = j;
+    bool known = nh_constraint_samples_rank(c, a + 1, c->m, NULL, &without) &&
+                 nh_constraint_samples_rank(c, a + 1, c->m + 1, column, &with);
+    nh_free(column);
+    return known && with > without;
+}
+
+/* The rank as the largest one over the points, and the first dependent constraint: by numbers. */
+static size_t rank_by_numbers(const nh_constraint_samples *c, size_t *redundant)
 {
     size_t best = 0;
     bool *empty = nh_alloc_array(c->k + 1, sizeof *empty);
@@ -256,10 +308,18 @@ bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t s
 {
     const nh_system *s = c->system;
     if (c->count == 0) return contradiction(c, seed, error);
-    size_t redundant, rank = rank_of(c, &redundant);
+    size_t redundant, rank;
+    bool exact = generic_rank_of(c, &rank, &redundant);
+    if (!exact) rank = rank_by_numbers(c, &redundant);
+    if (rank < c->k && exact && contradicts(c, redundant)) {
+        nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
+                     "this constraint contradicts those before it: together they have no solution");
+        return nh_error_hint(error, "correct one of them");
+    }
     if (rank < c->k) {
         nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
-                     "this constraint follows from the others: the %zu constraints have rank %zu", c->k, rank);
+                     "this constraint follows from the others: the %zu constraints have rank %zu%s", c->k, rank,
+                     exact ? "" : ", by numbers");
         return nh_error_hint(error, s->constraint[redundant].position
                                         ? "as an equation between positions it follows from the other constraints or "
                                           "contradicts them; remove it"

@@ -29,6 +29,12 @@ void nh_constraint_samples_init(nh_constraint_samples *c, nh_system *system, siz
 bool nh_constraint_samples_init_written(nh_constraint_samples *c, nh_system *system, uint64_t seed);
 void nh_constraint_samples_clear(nh_constraint_samples *c);
 
+/* The rank of df/dv of the first `rows` constraints by these velocities (NULL: by all m; index
+ * m: the constraints at rest) at almost all positions and
+ * times, modulo two primes and so without rounding.  False: not known, because a constraint is not linear in the
+ * velocities, or an entry has no residues. */
+bool nh_constraint_samples_rank(const nh_constraint_samples *c, size_t rows, size_t columns, const size_t *column,
+                                size_t *rank);
 /* Refuses constraints that depend on each other, contradict each other or leave no freedom; the message names the
  * constraint and the rank. */
 bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t seed, nh_error *error);

@@ -15,8 +15,6 @@
 enum { most_subsets = 2000 };
 static const double much_worse = 1e-3;
 
-/* ---- which velocities to eliminate ---- */
-
 /* |det F_S| / sqrt(det F F^T), in [0, 1] by Cauchy and Binet; here through singular values.  Velocities are measured in
  * their units, so that those of lengths and angles compare, whatever the unit of length. */
 static double volume(size_t rows, size_t columns, double *a)
@@ -30,9 +28,7 @@ static double volume(size_t rows, size_t columns, double *a)
 
 typedef struct {
     double least, largest; /* over the probes */
-    /* the determinant is the same everywhere, and the constraints have no poles: these velocities are determined at
-       every point */
-    bool constant;
+    bool constant;         /* the determinant is the same everywhere and no constraint has a pole: no singular point */
 } score;
 
 static score subset_score(const nh_constraint_samples *c, const size_t *subset)
@@ -135,27 +131,38 @@ static double best_dependent(const nh_constraint_samples *c, size_t *out)
     return best;
 }
 
-/* The velocities that the user named or wrote, unless that chart breaks down all over the sampling domain: then another
- * one is chosen. */
-static double choose_dependent(const nh_constraint_samples *c, size_t *out, bool *replaced)
+/* Do the constraints determine these velocities at almost all states?  Of constraints that are not linear by numbers. */
+static bool determined(const nh_constraint_samples *c, const size_t *subset, double largest)
 {
     static const double undetermined = 1e-12;
-    const nh_system *s = c->system;
-    if (s->dependents) memcpy(out, s->dependent, c->k * sizeof *out);
-    *replaced = false;
-    if (!s->dependents && !written_explicitly(c, out)) return best_dependent(c, out);
-    score named = subset_score(c, out);
-    *replaced = named.largest > undetermined && named.largest < nh_chart_least_pivot;
-    return *replaced ? best_dependent(c, out) : named.least;
+    size_t rank;
+    return nh_constraint_samples_rank(c, c->k, c->k, subset, &rank) ? rank == c->k : largest >= undetermined;
+}
+
+/* The velocities that the user named or wrote, unless that chart breaks down all over the sampling domain: then another
+ * one is chosen.  False: the constraints do not determine those. */
+static bool choose_dependent(const nh_constraint_samples *c, size_t *out, double *pivot, bool *replaced)
+{
+    bool listed = c->system->dependents > 0, named = listed || written_explicitly(c, out);
+    if (listed) memcpy(out, c->system->dependent, c->k * sizeof *out);
+    score at = named ? subset_score(c, out) : (score){0};
+    if (named && !determined(c, out, at.largest)) return false;
+    *replaced = named && at.largest < nh_chart_least_pivot;
+    *pivot = named && !*replaced ? at.least : best_dependent(c, out);
+    if ((named && !*replaced) || determined(c, out, 1)) return true;
+    for (size_t i = 0; i < c->k; i++) out[i] = i; /* the best ones by numbers were those of rounding */
+    while (!determined(c, out, 0))
+        if (!next_subset(c->k, c->m, out)) return false;
+    return true;
 }
 
 /* ---- building the chart ---- */
 
 static bool is_dependent(const size_t *dependent, size_t k, size_t i)
 {
-    for (size_t a = 0; a < k; a++)
-        if (dependent[a] == i) return true;
-    return false;
+    size_t a = 0;
+    while (a < k && dependent[a] != i) a++;
+    return a < k;
 }
 
 static void copy_probes(nh_chart *chart, const nh_constraint_samples *c)
@@ -202,8 +209,8 @@ static bool relate(nh_dag *d, nh_ex f, nh_ex u)
     for (unsigned j = 0; j <= most_degree; j++) {
         c = nh_simplify(d, nh_substitute(d, slope, 1, &u, &zero));
         slope = nh_simplify(d, nh_div(d, nh_diff(d, slope, u), nh_int(d, (int64_t)j + 1))); /* f^(j+1) / (j+1)! */
-        if (nh_is_zero(d, slope) && (j == 0 || nh_is_zero(d, c))) return false;
         if (nh_is_zero(d, slope)) {
+            if (j == 0 || nh_is_zero(d, c)) return false;
             nh_relate(d, u, j, nh_simplify(d, nh_neg(d, nh_div(d, sum, c))));
             return true;
         }
@@ -322,8 +329,8 @@ static bool contains_only_parameters(const nh_constraint_samples *c, nh_ex e)
 {
     const nh_system *s = c->system;
     bool only = !nh_depends(s->dag, e, s->t);
-    for (size_t i = 0; i < c->m && only; i++)
-        only = !nh_depends(s->dag, e, s->coordinate[i].q) && !nh_depends(s->dag, e, s->coordinate[i].v);
+    for (const nh_coordinate *at = s->coordinate; at < s->coordinate + c->m && only; at++)
+        only = !nh_depends(s->dag, e, at->q) && !nh_depends(s->dag, e, at->v);
     return only;
 }
 
@@ -442,7 +449,7 @@ static nh_chart *solved(const nh_constraint_samples *c, triangle *t, nh_ex *G, d
 static nh_chart *build(const nh_constraint_samples *c, const size_t *dependent, double pivot, nh_error *error)
 {
     nh_system *s = c->system;
-    size_t k = c->k;
+    const size_t k = c->k;
     nh_ex *f = nh_alloc_array(k + k * k + 1, sizeof *f);
     triangle t = {.k = k, .left = k, .f = f, .dependent = nh_alloc_array(k + 1, sizeof *t.dependent)};
     memcpy(t.dependent, dependent, k * sizeof *dependent);
@@ -476,8 +483,8 @@ nh_chart *nh_embedding_coordinates(nh_system *system, uint64_t seed, nh_error *e
     size_t *dependent = nh_alloc_array(c.k + 1, sizeof *dependent);
     bool replaced = false;
     if (c.k == 0 || nh_constraint_samples_check_rank(&c, seed, error)) {
-        double pivot = c.k ? choose_dependent(&c, dependent, &replaced) : 1;
-        if (pivot < 1e-12) {
+        double pivot = 1;
+        if (c.k && !choose_dependent(&c, dependent, &pivot, &replaced)) {
             nh_deck_fail(system->deck, system->constraint[0].node, 0, error,
                          "the constraints do not determine the velocities named under `dependent:`");
             nh_error_hint(error, "name other velocities, or remove `dependent:`");

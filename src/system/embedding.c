@@ -6,6 +6,7 @@
 #include "base/linalg.h"
 #include "base/text.h"
 #include "exact/ball.h"
+#include "exact/generic_value.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
@@ -296,8 +297,9 @@ static double evenness(size_t m, size_t n, const double *a)
     return most > 0 ? least / most : 0;
 }
 
-/* The largest rank of d rho/dw over the probes; *even: how alike in size the columns are, at best. */
-static size_t rank_of_map(const nh_chart *c, double *even)
+/* The rank of d rho/dw: exact, or else (*exact is false) by numbers, *usable: the largest one over the probes, without
+ * what doubles cannot tell from dependence; *even: how alike in size the columns are, at best. */
+static size_t rank_of_map(const nh_chart *c, double *even, size_t *usable, bool *exact)
 {
     nh_dag *d = c->system->dag;
     size_t m = c->system->coordinates, n = c->n, best = 0;
@@ -315,21 +317,32 @@ static size_t rank_of_map(const nh_chart *c, double *even)
         size_t rank = nh_embedding_rank(m, n, a);
         if (rank > best) best = rank;
     }
+    for (size_t i = 0; i < m * n; i++) R[i] = nh_system_values(c->system, d, R[i]);
+    size_t rank = 0;
+    *exact = nh_generic_rank(d, m, n, R, &rank);
     nh_free(a);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(R);
-    return best;
+    *usable = best;
+    return *exact ? rank : best;
 }
 
 static bool velocities_independent(const nh_chart *c, nh_error *error)
 {
     static const double least_even = 1e-10;
     double even = 0;
-    size_t rank = rank_of_map(c, &even);
-    if (rank == c->n && even > least_even) return true;
+    bool exact;
+    size_t usable, rank = rank_of_map(c, &even, &usable, &exact);
+    if (usable == c->n && even > least_even) return true;
     const nh_deck *deck = c->system->deck;
     const nh_deck_node *node = nh_deck_get(nh_deck_root(deck), "velocities");
+    if (rank == c->n && usable < c->n) {
+        nh_deck_fail(deck, node, 0, error,
+                     "the quasi-velocities hardly differ: in double precision the map reaches %zu dimensions, not %zu",
+                     usable, c->n);
+        return nh_error_hint(error, "choose quasi-velocities that move the system in clearly different directions");
+    }
     if (rank == c->n) {
         nh_deck_fail(deck, node, 0, error,
                      "the quasi-velocities differ too much in size: by the map one is %.0e times as fast as another",
@@ -337,8 +350,8 @@ static bool velocities_independent(const nh_chart *c, nh_error *error)
         return nh_error_hint(error, "give them units in which they are of similar size");
     }
     nh_deck_fail(deck, node, 0, error,
-                 "the velocities' map reaches a space of velocities of dimension %zu with %zu quasi-velocities", rank,
-                 c->n);
+                 "the velocities' map reaches a space of velocities of dimension %zu with %zu quasi-velocities%s", rank,
+                 c->n, exact ? "" : " (by numbers)");
     return nh_error_hint(error, "the quasi-velocities must be independent: each must add a direction of motion");
 }
 
