@@ -124,6 +124,29 @@ Test(truth, a_current_holds_wherever_motions_go, .timeout = 120)
     place_clear(&p);
 }
 
+/* L with |x - 1/n| + ... + |x - 1|: more walls than are kept.  (The walls beyond 40 were left out without a word.) */
+Test(truth, walls_that_are_not_looked_at_are_told, .timeout = 120)
+{
+    static const char *const extra[] = {"", " + sign(x - 2)*y'"};
+    place p = place_make();
+    for (size_t many = 0; many < 2; many++)
+        for (size_t k = 0; k < 2; k++) {
+            char text[4000] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2";
+            size_t n = many ? 45 : 30, at = strlen(text);
+            for (size_t i = 1; i <= n; i++) at += (size_t)sprintf(text + at, " - 0.01*abs(x - %zu/%zu)", i, n);
+            sprintf(text + at, "%s\n", extra[k]);
+            write_here(&p, "s.yaml", text);
+            told t = tell(&p, "analyze s.yaml", 0);
+            const char *region = nh_json_text(nh_json_get(t.json, "completeness"), "region");
+            cr_expect_eq(strstr(t.text, "each further wall") || strstr(t.text, "each wall"), many, "%s", t.text);
+            /* a continuous energy passes through all kinks */
+            cr_expect_eq(nh_json_value(t.json, "independent_currents") == 3, !k, "%s", t.text);
+            cr_expect(!strstr(t.text, "x < 1 and"), "a wall that another one implies: %s", region ? region : "");
+            told_clear(&t);
+        }
+    place_clear(&p);
+}
+
 /* ---- unknowns that were sought by trial ---- */
 
 #define DRAG "name: drag\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\nforces:\n  - x = -(35/188*x' + 35/94*y')*x'\n" \

@@ -7,6 +7,7 @@ static void keep(nh_region *r, nh_ex u, bool above)
 {
     for (size_t k = 0; k < r->count; k++)
         if (r->wall[k] == u) return;
+    r->unseen |= r->count == NH_MOST_WALLS;
     if (r->count == NH_MOST_WALLS) return;
     r->wall[r->count] = u;
     r->kind[r->count++] = above ? NH_REGION_ABOVE : NH_REGION_BELOW;

@@ -14,6 +14,7 @@ static void put(nh_walls *w, nh_ex e, bool edge)
         w->cut[i] = w->cut[i] && w->cutting;
         return;
     }
+    w->left_out |= w->count == NH_MOST_WALLS;
     if (w->count == NH_MOST_WALLS) return;
     w->e[w->count] = e;
     w->cut[w->count] = w->cutting;
@@ -24,6 +25,7 @@ static void put_part(nh_walls *w, nh_ex e)
 {
     for (size_t i = 0; i < w->parts; i++)
         if (w->part[i] == e) return;
+    w->left_out |= w->parts == NH_MOST_WALL_PARTS;
     if (w->parts < NH_MOST_WALL_PARTS) w->part[w->parts++] = e;
 }
 
@@ -63,7 +65,8 @@ static void put_poles_of_terms(nh_walls *w, nh_dag *d, nh_ex sum, bool edge, int
 static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth)
 {
     nh_kind kind = nh_kind_of(d, e);
-    if (kind == NH_NUMBER || depth > most_nested) return;
+    w->left_out |= depth > most_nested && kind != NH_NUMBER && kind != NH_SYMBOL;
+    if (kind == NH_NUMBER || (depth > most_nested && kind != NH_SYMBOL)) return;
     if (kind == NH_FUNCTION && nh_function_of(d, e) == NH_ABS) {
         put_factors(w, d, nh_child(d, e, 0), false, depth + 1);
     } else if (kind == NH_PRODUCT) {
@@ -84,7 +87,9 @@ static void put_factors(nh_walls *w, nh_dag *d, nh_ex e, bool edge, int depth)
 static void put_poles(nh_walls *w, nh_dag *d, nh_ex v, int depth)
 {
     nh_kind kind = nh_kind_of(d, v);
-    if (depth > most_nested || kind == NH_NUMBER || kind == NH_SYMBOL) return;
+    if (kind == NH_NUMBER || kind == NH_SYMBOL) return;
+    w->left_out |= depth > most_nested;
+    if (depth > most_nested) return;
     if (kind == NH_FUNCTION && nh_function_of(d, v) == NH_TAN)
         put_factors(w, d, nh_call(d, NH_COS, nh_child(d, v, 0)), false, 0);
     for (size_t i = 0; i < nh_arity(d, v); i++) {

@@ -28,9 +28,10 @@ typedef struct {
     size_t parts;
     nh_ex part[NH_MOST_WALL_PARTS];
     bool cutting;               /* the walls that are added now are cuts */
+    bool left_out;              /* there are more than the room holds, or in deeper quotients than are looked at */
 } nh_walls;
 
-/* Adds the walls of e; those beyond the room are left out. */
+/* Adds the walls of e. */
 void nh_walls_add(nh_walls *walls, nh_dag *dag, nh_ex e);
 
 /* Adds the factors of the bases of negative powers, and of the arguments of logarithms: there e may be infinite. */

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "graph/diff.h"
+#include "graph/measure.h"
 #include "graph/print.h"
 #include "integrals/exact_points.h"
 #include "integrals/prove.h"
@@ -118,11 +119,12 @@ nh_terrain nh_terrain_of(const nh_model *o, const nh_options *options, nh_arena 
 
 /* The walls of phi that the equations of motion do not have. */
 static nh_crossings own_crossings(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
-    nh_arena *arena)
+    nh_arena *arena, bool *unseen)
 {
     nh_walls all = terrain->walls, own = {0};
     uint64_t state = (uint64_t)options->seed + 2 * seed_offset;
     nh_walls_add(&all, o->dag, phi);
+    *unseen = all.left_out;
     /* ends of roots are not crossed; the lines show that */
     for (size_t i = terrain->walls.count; i < all.count; i++) own.e[own.count++] = all.e[i];
     return nh_crossings_find(o, &own, &state, arena);
@@ -232,11 +234,36 @@ static void look_at_the_end(judge *j, const nh_branch_end *end, nh_region *out)
     j->beyond = 0;
 }
 
+/* Is it continuous for any real values: entire, where each |u| in it is u? */
+static bool is_continuous(const nh_model *o, nh_ex e)
+{
+    NH_LIST(call);
+    for (bool again = true; again;) {
+        again = false;
+        for (size_t i = nh_functions_in(o->dag, e, &call); i-- > 0 && !again;) {
+            if (nh_function_of(o->dag, call[i]) != NH_ABS) continue;
+            nh_ex u = nh_child(o->dag, call[i], 0);
+            e = nh_substitute(o->dag, e, 1, &call[i], &u);
+            again = true;
+        }
+    }
+    return nh_is_entire(o->dag, e, o->width, o->chart->symbol);
+}
+
+/* Then motions have no impulses, and what is constant on all sides of walls is so across them, seen or not. */
+static bool passes_all_walls(const nh_model *o, nh_ex phi)
+{
+    bool all = is_continuous(o, o->Lbar) && is_continuous(o, phi);
+    for (size_t s = 0; s < o->m && all; s++) all = is_continuous(o, o->rho[s]);
+    return all;
+}
+
 nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, double digits,
     const nh_options *options, nh_arena *arena)
 {
     nh_region out = {0};
-    nh_crossings own = own_crossings(o, terrain, phi, options, arena);
+    nh_crossings own = own_crossings(o, terrain, phi, options, arena, &out.unseen);
+    if (out.unseen && digits == 0) out.unseen = !passes_all_walls(o, phi);
     if (own.count + terrain->crossings.count + terrain->end.crossings.count == 0) return out;
     judge j = {.o = o, .ball = nh_ball_create(o->dag, (long)options->bits), .phi = phi, .terms = 1 + o->m + o->n,
         .digits = digits};
@@ -272,7 +299,7 @@ nh_region nh_region_open(const nh_model *o, const nh_terrain *terrain, nh_ex phi
 {
     nh_region out = {0};
     nh_walls walls = {0};
-    nh_crossings own = own_crossings(o, terrain, phi, options, arena);
+    nh_crossings own = own_crossings(o, terrain, phi, options, arena, &out.unseen);
     nh_walls_add(&walls, o->dag, phi);
     for (size_t i = 0; i < walls.count; i++) {
         bool judged = walls.edge[i];
@@ -310,21 +337,40 @@ static void condition(nh_dag *d, nh_ex wall, int sign, nh_text *out)
     nh_print(d, level ? root : nh_int(d, 0), out);
 }
 
+/* Is it said by another condition on the same symbol, as x < 1 by x < 1/2? */
+static bool is_implied(nh_dag *d, const nh_region *r, size_t i)
+{
+    nh_ex symbol, root, other, at;
+    bool rising, rises;
+    if (!is_level(d, r->wall[i], &symbol, &root, &rising) || nh_kind_of(d, root) != NH_NUMBER) return false;
+    bool upwards = (r->kind[i] == NH_REGION_ABOVE) == rising;
+    for (size_t k = 0; k < r->count; k++) {
+        bool sided = r->kind[k] == NH_REGION_ABOVE || r->kind[k] == NH_REGION_BELOW;
+        if (k == i || !sided || !is_level(d, r->wall[k], &other, &at, &rises) || other != symbol) continue;
+        if (upwards != ((r->kind[k] == NH_REGION_ABOVE) == rises)) continue;
+        nh_ex gap = upwards ? nh_sub(d, at, root) : nh_sub(d, root, at);
+        double by = nh_kind_of(d, gap) == NH_NUMBER ? nh_num_value(nh_number_of(d, gap)) : 0;
+        if (by > 0 || (by == 0 && k < i)) return true;
+    }
+    return false;
+}
+
 bool nh_region_to_the_end(const nh_region *r)
 {
     bool all = true;
     for (size_t i = 0; i < r->count; i++) all &= r->kind[i] == NH_REGION_IMPULSE;
-    return all;
+    return all && !r->unseen;
 }
 
 const char *nh_region_text(nh_dag *d, const nh_region *r, nh_arena *arena)
 {
-    if (r->count == 0) return NULL;
+    if (r->count == 0 && !r->unseen) return NULL;
     nh_text text;
     nh_text_init(&text);
     const char *between = "";
     for (size_t i = 0; i < r->count; i++) {
         if (r->kind[i] != NH_REGION_ABOVE && r->kind[i] != NH_REGION_BELOW) continue;
+        if (is_implied(d, r, i)) continue;
         nh_text_addf(&text, "%s", *between ? " and " : "for ");
         condition(d, r->wall[i], r->kind[i] == NH_REGION_ABOVE ? 1 : -1, &text);
         between = ", ";
@@ -339,6 +385,8 @@ const char *nh_region_text(nh_dag *d, const nh_region *r, nh_arena *arena)
                                                              : "");
         between = ", ";
     }
+    if (r->unseen)
+        nh_text_addf(&text, "%son one side of each %swall", between, r->count ? "further " : "");
     const char *out = nh_arena_strdup(arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;

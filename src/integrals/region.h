@@ -29,6 +29,7 @@ typedef struct {
     /* holds where wall > 0; where wall < 0; on both sides, but jumps; in some parts of both sides; on both sides of an
      * impulse */
     nh_region_kind kind[NH_MOST_WALLS];
+    bool unseen; /* and on one side of each further wall: there are more than the room holds (nh_walls.left_out) */
 } nh_region;
 
 /* The walls of the equations of motion, and where they are crossed: the same for all currents.  Belongs to the
@@ -60,7 +61,7 @@ nh_region nh_region_open(const nh_model *model, const nh_terrain *terrain, nh_ex
 bool nh_region_to_the_end(const nh_region *region);
 
 /* "for x > 0", "on each side of x - y = 0, where it jumps", "on each side of x = 0, where the motion has an impulse";
-   NULL for everywhere. */
+   "on one side of each further wall" (unseen); NULL for everywhere. */
 const char *nh_region_text(nh_dag *dag, const nh_region *region, nh_arena *arena);
 
 #endif
