@@ -70,7 +70,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan linearize export", "set an option that `nhsym explain options` lists")    \
     X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate benchmark reduce classify scan linearize export", "show the current step on standard error")           \
     X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize export new", "-q: no summary and no remarks; tables and code are printed unless a file holds the result") \
-    X('v',             "verbose",     no_argument,       "",                   "analyze simulate benchmark reduce classify scan linearize", "-v: a longer summary")                                    \
+    X('v',             "details",     no_argument,       "",                   "analyze simulate benchmark reduce classify scan linearize", "-v: everything: symmetries, equations, checks, how it was searched") \
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize export", "no colours; NO_COLOR does the same")       \
     X('h',             "help",        no_argument,       "",                   "", "-h: list the options of the command")                                               \
     X(opt_version,     "version",     no_argument,       "",                   "", "print the version")
@@ -107,6 +107,7 @@ bool nh_word_among(const char *words, const char *word);
 /* Old names: still read, but not shown.  Options: code, old name, argument; commands: old name, name. */
 #define NH_CLI_OLD_OPTION_TABLE(X)                    \
     X(opt_velocities, "chart",  required_argument)    \
+    X('v', "verbose", no_argument)                    \
     X(opt_robustness, "stress", no_argument)
 #define NH_CLI_OLD_COMMAND_TABLE(X) X("chart", "benchmark")
 

@@ -90,7 +90,7 @@ static void all_commands(void)
     }
     puts("\n  --set NAME=VALUE             set a parameter; repeatable\n"
          "  --json [FILE|-]  --html FILE  --tex FILE  -o DIR     output files\n"
-         "  --quiet  --verbose  --no-color  --help      `nhsym help COMMAND` lists all\n"
+         "  --quiet  --details  --no-color  --help      `nhsym help COMMAND` lists all\n"
          "\nExample");
     for (size_t i = 0; i < command_count; i++)
         if (nh_word_among("analyze", commands[i].name)) printf("  %s\n", commands[i].example);

@@ -146,7 +146,9 @@ static bool put_words(nh_cli *cli, const nh_answer *a, nh_error *error)
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
     if (!cli->folder || cli->wordless) return true;
-    a->kind->write(a, style_of(cli, NH_PEN_TEXT, false), &text);
+    nh_pen_style all = style_of(cli, NH_PEN_TEXT, false);
+    all.verbose = true;
+    a->kind->write(a, all, &text);
     return nh_cli_write(cli, nh_cli_in_folder(cli, "summary.txt"), &text, error);
 }
 

@@ -127,6 +127,19 @@ static bool linear_problem(nh_analysis *r, size_t families, const nh_family *fam
     return good;
 }
 
+/* Where the ansatz of the user holds currents, and more can exist, the program's own search follows; the numbers of the
+ * problem remain those of the ansatz. */
+static bool go_on(nh_analysis *r, nh_error *error)
+{
+    nh_spectrum given = r->current;
+    size_t samples = r->samples, beyond = r->beyond, rejected = r->rejected;
+    if (!r->count || r->search == NH_SEARCH_COMPLETE || nh_late()) return true;
+    bool good = nh_staged_search_run(r, error);
+    r->current = given;
+    r->samples = samples, r->beyond = beyond, r->rejected = rejected;
+    return good;
+}
+
 /* After the deadline anything may be missing. */
 static void watch_deadline(nh_analysis *r)
 {
@@ -154,7 +167,7 @@ static void conclude(nh_analysis *r)
     if (r->count == 0 && r->open)
         nh_analysis_warn(
             r, "some null vectors have no certificate: to decide, use another ansatz or more samples (--samples)");
-    if (r->stages == 0 && r->current.rank_in_doubt)
+    if (r->current.rank_in_doubt && (!r->stages || (r->analysis && r->analysis->families)))
         nh_analysis_warn(r, "two columns of the ansatz are nearly dependent: the option `rank` decides which are kept");
 }
 
@@ -364,6 +377,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
         r->search = !solved                              ? NH_SEARCH_CUT
                     : r->independent >= r->local_maximum ? NH_SEARCH_COMPLETE
                                                          : NH_SEARCH_EXHAUSTED;
+        if (solved && !go_on(r, error)) return false;
     }
     watch_deadline(r);
     if (!nh_late()) nh_missing_count(r, r->stages > 0);

@@ -1,6 +1,7 @@
 /* The answer of an analysis, and the order of its sections. */
 #include <string.h>
 
+#include "document/analysis_answer.h"
 #include "document/analysis_outline_internal.h"
 #include "document/facts.h"
 #include "document/geometry_sheet.h"
@@ -59,7 +60,7 @@ static void answer(nh_pen *p, const nh_analysis *r)
     else if (!p->ink->brief) nh_pen_words(p, "%s", nh_facts_search(r));
     if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
     if (p->ink->brief && nh_analysis_by_trial(r)) nh_pen_words(p, "%s", nh_facts_search(r));
-    if (p->ink->brief && nh_facts_given(r) && r->search == NH_SEARCH_EXHAUSTED)
+    if (p->ink->brief && nh_facts_given(r) && !r->stages && r->search == NH_SEARCH_EXHAUSTED)
         nh_pen_words(p,
                      "The ansatz is that of the analysis file. With --no-analysis the program chooses what it tries.");
     nh_text_clear(&words);
@@ -101,6 +102,10 @@ static void explicit_motion(nh_pen *p, const nh_analysis *r)
 
 void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
 {
+    if (style.form == NH_PEN_TEXT && !style.verbose && !r->theory) {
+        nh_analysis_write_answer(r, style.colour, out);
+        return;
+    }
     nh_pen pen, *p = &pen;
     nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
     const nh_chart *chart = r->other && r->other->chart->roots ? r->other->chart : r->model->chart;

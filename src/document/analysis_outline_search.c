@@ -106,7 +106,8 @@ static void unknowns(nh_pen *p, const nh_analysis *r)
 static void stages(nh_pen *p, const nh_analysis *r)
 {
     if (!r->stages) return;
-    nh_pen_table(p, "What was tried", "stage|columns|null values|new currents");
+    nh_pen_table(p, nh_facts_given(r) ? "Then, by the program's own search" : "What was tried",
+                 "stage|columns|null values|new currents");
     for (size_t i = 0; i < r->stages; i++) {
         const nh_stage_record *s = &r->stage[i];
         if (s->skipped) nh_pen_row(p, "#%s: not tried, too large; %s|||", s->name, nh_limit_words(r->arena, &s->limit));

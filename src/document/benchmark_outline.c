@@ -368,7 +368,7 @@ static void fits_brief(nh_pen *p, const nh_benchmark *c)
     }
     nh_pen_table_end(p);
     nh_pen_words(p, "* accurate, and no other of as many functions is both faster and more exact%s.",
-                 p->style.verbose ? "" : "; --verbose shows all");
+                 p->style.verbose ? "" : "; --details shows all");
     if (c->fits_partial) nh_pen_words(p, "There was no time for more functions; --budget allows more.");
 }
 

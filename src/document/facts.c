@@ -229,7 +229,7 @@ const char *nh_facts_search(const nh_analysis *r)
                                "parts of their box. This proves nothing about other values.",
                                r->hits->evaluations, r->hits->visited,
                                pow((double)r->hits->parts, (double)r->hits->unknowns));
-    if (nh_facts_given(r))
+    if (nh_facts_given(r) && !r->stages)
         return "The search is exhausted: it tried the ansatz of the analysis file, and nothing else. With "
                "--no-analysis "
                "the program chooses what it tries.";

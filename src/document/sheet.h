@@ -73,6 +73,9 @@ void nh_sheet_plain(const char *words, nh_text *out);
 void nh_sheet_text(nh_sheet *sheet, bool colour, nh_text *out);
 /* Any text, with lines of at most 80 columns, broken at blanks. */
 void nh_sheet_fold(const char *text, nh_text *out);
+/* Words, and a formula, as lines of at most 80 columns; `hang`: the indentation of all lines but the first. */
+void nh_sheet_paragraph(size_t indent, size_t hang, const char *words, nh_text *out);
+void nh_sheet_broken(size_t indent, size_t hang, const char *formula, nh_text *out);
 /* Formulas without a sheet as text of 80 columns: label = value, with names for repeated parts of long ones, which
  * follow. */
 void nh_sheet_formulas(nh_dag *dag, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown,

@@ -65,6 +65,16 @@ static void wrapped_words(nh_text *out, size_t indent, size_t hang, const char *
     put_broken(out, indent, hang, text, blank_at);
 }
 
+void nh_sheet_paragraph(size_t indent, size_t hang, const char *words, nh_text *out)
+{
+    wrapped_words(out, indent, hang, words + strspn(words, " "));
+}
+
+void nh_sheet_broken(size_t indent, size_t hang, const char *formula, nh_text *out)
+{
+    put_broken(out, indent, hang, formula, break_at);
+}
+
 void nh_sheet_plain(const char *words, nh_text *out)
 {
     nh_text part;

@@ -1,0 +1,486 @@
+#include "document/analysis_answer.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "document/facts.h"
+#include "document/formula.h"
+#include "document/sheet.h"
+#include "document/symmetry_words.h"
+#include "graph/print.h"
+#include "integrals/real_where.h"
+
+enum { screen_lines = 40, formula_lines = 6, short_lines = 2, few_equations = 8, hang = 4 };
+
+typedef struct {
+    const nh_analysis *r;
+    nh_text *out;
+    bool colour;
+    bool terse; /* the full answer does not fit the screen: long formulas and symmetries are left out */
+    bool all_proved;        /* every quantity */
+    const char **proof;     /* of each: "for all m, k", or the sentence that says how sure it is */
+    nh_formula_list list;   /* of the quantities, with common names for repeated parts */
+} screen;
+
+/* ---- lines ---- */
+
+static void paint(const screen *x, const char *code, const char *text)
+{
+    for (const char *at = text; *at;) {
+        size_t length = strcspn(at, "\n");
+        nh_text_addf(x->out, x->colour ? "\033[%sm" : "%.0s", code);
+        nh_text_add_n(x->out, at, length);
+        nh_text_add(x->out, x->colour ? "\033[0m\n" : "\n");
+        at += length + (at[length] == '\n');
+    }
+}
+
+static void say(const screen *x, size_t indent, nh_text *words)
+{
+    while (words->length && words->data[words->length - 1] == ' ') words->data[--words->length] = 0;
+    if (words->length) nh_sheet_paragraph(indent, indent, nh_text_string(words), x->out);
+    nh_text_clear(words);
+}
+
+static size_t lines_in(const char *text)
+{
+    size_t n = 0;
+    for (; *text; text++) n += *text == '\n';
+    return n;
+}
+
+static void title(const screen *x)
+{
+    const nh_system *s = x->r->system;
+    nh_text line;
+    nh_text_init(&line);
+    size_t column = nh_text_width(s->title);
+    nh_text_addf(&line, x->colour ? "\033[1m%s\033[0m" : "%s", s->title);
+    for (size_t i = 0; i < s->parameters; i++) {
+        char one[120];
+        snprintf(one, sizeof one, "%s = %.6g%s", s->parameter[i].name, s->parameter[i].value,
+                 i + 1 < s->parameters ? "," : "");
+        bool fits = column + nh_text_width(one) + 3 <= 80;
+        nh_text_addf(&line, "%s%s", !fits ? "\n  " : i ? " " : "   ", one);
+        column = (fits ? column + (i ? 1 : 3) : 2) + nh_text_width(one);
+    }
+    nh_text_addf(x->out, "%s\n", nh_text_string(&line));
+    nh_text_clear(&line);
+}
+
+/* ---- the headline ---- */
+
+static bool is_energy(const nh_current *f)
+{
+    return f->energy && (!strcmp(f->meaning, "energy") || !strncmp(f->meaning, "minus", 5));
+}
+
+static const nh_completeness *counted_first(const nh_analysis *r)
+{
+    const nh_completeness *c = &r->completeness[r->completeness[0].counted ? 0 : 1];
+    return c->counted && !c->count.obstacle ? c : NULL;
+}
+
+static void headline(const screen *x)
+{
+    const nh_analysis *r = x->r;
+    size_t n = r->independent, most = r->local_maximum;
+    nh_text words;
+    nh_text_init(&words);
+    const char *proved = x->all_proved ? " and proved" : "";
+    if (!r->count && r->verdict == NH_FOUND) nh_text_addf(&words, "%s.", nh_facts_between_walls(r));
+    else if (!r->count && r->verdict == NH_NONE)
+        nh_text_addf(&words, "Nothing is conserved of the form that was tried. %s", nh_facts_search(r));
+    else if (!r->count) nh_text_addf(&words, "%s. %s", nh_facts_nothing(r), nh_facts_search(r));
+    else if (n == most && n == 1)
+        nh_text_addf(&words, "The only conserved quantity that can exist was found%s.", proved);
+    else if (n == most) nh_text_addf(&words, "All %zu conserved quantities that can exist were found%s.", n, proved);
+    else if (n == 1 && is_energy(&r->found[0]))
+        nh_text_addf(&words, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.", most);
+    else
+        nh_text_addf(&words, "%zu independent conserved quantit%s found. At most %zu can exist.", n,
+                     n == 1 ? "y was" : "ies were", most);
+    if (r->count && r->motion) nh_text_add(&words, " The motion is known in closed form.");
+    bool cut = r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) || nh_analysis_by_trial(r);
+    if (r->count && (cut || (nh_facts_given(r) && !r->stages))) nh_text_addf(&words, " %s", nh_facts_search(r));
+    say(x, 0, &words);
+}
+
+/* ---- the quantities ---- */
+
+/* Its sign as readers know it: E and not -E. */
+static nh_ex shown(const nh_analysis *r, const nh_current *f)
+{
+    nh_dag *d = r->model->dag;
+    nh_ex e = strncmp(f->meaning, "minus", 5) ? f->phi : nh_neg(d, f->phi);
+    const nh_chart *chart = r->model->chart;
+    return nh_formula_shortened(r->analysis, d, chart->roots ? nh_chart_shown(chart, e) : e);
+}
+
+static const char *label_of(const nh_analysis *r, const nh_current *f)
+{
+    nh_dag *d = r->model->dag;
+    if (is_energy(f) && !nh_depends(d, f->phi, nh_symbol(d, "E"))) return "E = ";
+    const char *of = strstr(f->meaning, "momentum of ");
+    bool bare = of && (of == f->meaning || !strncmp(f->meaning, "minus the ", 10));
+    const char *p = bare ? nh_arena_printf(r->arena, "p_%s", of + strlen("momentum of ")) : NULL;
+    return p && !nh_depends(d, f->phi, nh_symbol(d, p)) ? nh_arena_printf(r->arena, "%s = ", p) : "";
+}
+
+static void put_formula(const screen *x, size_t k)
+{
+    const nh_current *f = &x->r->found[k];
+    nh_text text, block;
+    nh_text_init(&text);
+    nh_text_init(&block);
+    nh_text_addf(&text, "%-*zu%s", k < 9 ? 3 : 4, k + 1, label_of(x->r, f));
+    char *formula = nh_print_string(x->r->model->dag, x->list.formula[k]);
+    if (f->series) nh_text_add(&text, "a series with proved bounds (--details)");
+    else if (!x->list.stands[k]) nh_text_add(&text, "a long formula (--details)");
+    else nh_text_add(&text, formula);
+    nh_sheet_broken(0, hang + 2, nh_text_string(&text), &block);
+    size_t n = lines_in(nh_text_string(&block));
+    if (n > (x->terse ? short_lines : formula_lines)) {
+        nh_text_clear(&text);
+        nh_text_clear(&block);
+        nh_text_addf(&block, "%-*zu%sa formula of %zu lines (--details)\n", k < 9 ? 3 : 4, k + 1, label_of(x->r, f), n);
+    }
+    paint(x, "36", nh_text_string(&block));
+    nh_free(formula);
+    nh_text_clear(&text);
+    nh_text_clear(&block);
+}
+
+/* " with w^2 - W^2 != 0", ", real where k > 0" */
+static void put_where(const nh_analysis *r, const nh_current *f, nh_text *out)
+{
+    nh_ex found[NH_MOST_REAL_WHERE];
+    bool parameters = !f->series && (f->proof.all_parameters || f->proof.fixed);
+    size_t n = parameters ? nh_real_where_divisors(r->model, f->phi, found) : 0;
+    for (size_t i = 0; i < n; i++) {
+        nh_text_add(out, i ? " and " : " with ");
+        nh_print(r->model->dag, found[i], out);
+        nh_text_add(out, " != 0");
+    }
+    n = f->series ? 0 : nh_real_where(r->model, f->phi, found);
+    for (size_t i = 0; i < n; i++) {
+        nh_text_add(out, i ? " and " : ", real where ");
+        nh_print(r->model->dag, found[i], out);
+        nh_text_add(out, " > 0");
+    }
+}
+
+/* How sure it is: of a proved one " for all m, k" or "", after "proved"; of another one a sentence. */
+static const char *proof_of(const nh_analysis *r, const nh_current *f)
+{
+    nh_text out;
+    nh_text_init(&out);
+    if (f->series && f->series->variables > 1)
+        nh_text_addf(&out, "Its rate is at most %.2g: a rigorous bound, no proof", f->series->bound);
+    else if (!f->proof.proved)
+        nh_text_addf(&out, "Conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
+    nh_text_addf(&out, "%s%s", nh_facts_holds(r->model, &f->proof, true), nh_facts_which_branch(r, f));
+    put_where(r, f, &out);
+    const char *text = nh_arena_strdup(r->arena, nh_text_string(&out));
+    nh_text_clear(&out);
+    return text;
+}
+
+/* "1 to 3 are proved for all m, k; 4 for k = 2." */
+static void put_proofs(const screen *x)
+{
+    const nh_analysis *r = x->r;
+    size_t groups = 0;
+    nh_text words;
+    nh_text_init(&words);
+    for (size_t k = 0; k < r->count; k++) {
+        size_t first = 0, members = 0, last = SIZE_MAX;
+        while (strcmp(x->proof[first], x->proof[k])) first++;
+        if (first < k) continue;
+        nh_text_add(&words, groups ? "; " : "");
+        bool all = true;
+        for (size_t i = 0; i < r->count; i++) all &= !strcmp(x->proof[i], x->proof[k]);
+        for (size_t i = k; i < r->count && !all; i++) {
+            if (strcmp(x->proof[i], x->proof[k])) continue;
+            size_t end = i;
+            while (end + 1 < r->count && !strcmp(x->proof[end + 1], x->proof[k])) end++;
+            members += end - i + 1;
+            nh_text_addf(&words, last == SIZE_MAX ? "%zu" : ", %zu", i + 1);
+            if (end > i) nh_text_addf(&words, end == i + 1 ? ", %zu" : " to %zu", end + 1);
+            last = i = end;
+        }
+        if (all) nh_text_add(&words, r->count == 1 ? "Proved" : r->count == 2 ? "Both are proved" : "All are proved");
+        else if (!groups) nh_text_add(&words, members > 1 ? " are proved" : " is proved");
+        nh_text_add(&words, x->proof[k][0] || all || !groups ? x->proof[k] : " for all parameter values");
+        groups++;
+    }
+    nh_text_add(&words, ".");
+    if (r->count) say(x, r->count == 1 ? 3 : 0, &words);
+}
+
+/* "Energy.", "Momentum of x." */
+static void put_meaning(const nh_analysis *r, const nh_current *f, bool rotations, nh_text *out)
+{
+    const char *m = strncmp(f->meaning, "minus the ", 10) ? f->meaning : f->meaning + 10;
+    const char *of = strstr(m, "momentum of ") == m ? m + strlen("momentum of ") : NULL;
+    bool angle = false;
+    for (size_t s = 0; of && s < r->system->coordinates; s++)
+        angle |= !strcmp(of, r->system->coordinate[s].name) && r->system->coordinate[s].type == NH_ANGLE;
+    if (of) nh_text_addf(out, "%s conjugate to %s. ", angle ? "Angular momentum" : "Momentum", of);
+    else if (*m) nh_text_addf(out, "%c%s. ", toupper((unsigned char)*m), m + 1);
+    else if (rotations) nh_text_add(out, "Angular momentum. ");
+}
+
+static void put_quantity(const screen *x, size_t k)
+{
+    const nh_analysis *r = x->r;
+    const nh_current *f = &r->found[k];
+    nh_text words, symmetry;
+    nh_text_init(&words);
+    nh_text_init(&symmetry);
+    put_formula(x, k);
+    bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry);
+    put_meaning(r, f, rotations, &words);
+    bool follows = f->independence == NH_DEPENDENT;
+    if (symmetry.length && !x->terse && !follows) nh_text_addf(&words, "From %s. ", nh_text_string(&symmetry));
+    if (follows) nh_text_add(&words, "Follows from the others. ");
+    if (f->independence == NH_DOUBTFUL) nh_text_add(&words, "Perhaps it follows from the others. ");
+    if (f->independence == NH_CONSTANT) nh_text_add(&words, "It has the same value at all states. ");
+    if (f->local && !follows) nh_text_add(&words, "Not the same after a full turn of an angle. ");
+    if (!x->all_proved)
+        nh_text_addf(&words, "%s%s.", f->proof.proved && !(f->series && f->series->variables > 1) ? "Proved" : "",
+                     x->proof[k]);
+    say(x, k < 9 ? 3 : 4, &words);
+    nh_text_clear(&symmetry);
+}
+
+/* The names of repeated parts, once for all quantities. */
+static void put_parts(const screen *x)
+{
+    nh_dag *d = x->r->model->dag;
+    for (size_t i = 0; i < x->list.parts && x->list.named; i++) {
+        if (!x->list.needed[i]) continue;
+        nh_text line, block;
+        nh_text_init(&line);
+        nh_text_init(&block);
+        char *value = nh_print_string(d, x->list.part[i].value);
+        nh_text_addf(&line, "%s = %s", x->list.part[i].name, value);
+        nh_sheet_broken(hang - 1, 2 * hang, nh_text_string(&line), &block);
+        paint(x, "36", nh_text_string(&block));
+        nh_free(value);
+        nh_text_clear(&block);
+        nh_text_clear(&line);
+    }
+}
+
+static void put_regions(const screen *x)
+{
+    const nh_analysis *r = x->r;
+    for (size_t k = 0; k < r->pieces; k++) {
+        nh_text line;
+        nh_text_init(&line);
+        nh_text_addf(&line, "%s, while a motion stays there: ", r->piece[k].region);
+        char *formula = nh_print_short(r->model->dag, shown(r, &r->piece[k]), r->options.shown);
+        nh_text_add(&line, formula ? formula : "a long formula (--details)");
+        nh_sheet_broken(0, hang, nh_text_string(&line), x->out);
+        nh_free(formula);
+        nh_text_clear(&line);
+    }
+    if (!r->pieces) return;
+    nh_text words;
+    nh_text_init(&words);
+    nh_text_add(&words, r->pieces > 1 ? "These hold" : "This holds");
+    nh_text_add(&words, " in a part of the motions only.");
+    say(x, 0, &words);
+}
+
+static void quantities(screen *x)
+{
+    const nh_analysis *r = x->r;
+    nh_ex *e = nh_alloc_array(r->count + 1, sizeof *e);
+    size_t names = 0;
+    for (size_t k = 0; k < r->count; k++) e[k] = shown(r, &r->found[k]);
+    x->list = nh_formula_list_make(r->model->dag, r->count, e, r->options.shown, &names);
+    if (r->count) nh_text_add(x->out, "\n");
+    for (size_t k = 0; k < r->count; k++) put_quantity(x, k);
+    put_parts(x);
+    nh_formula_list_clear(&x->list);
+    nh_free(e);
+    if (x->all_proved) put_proofs(x);
+    put_regions(x);
+}
+
+/* ---- can there be more? ---- */
+
+/* "x and y", "t, x and y", "t and the coordinates" */
+static const char *functions_of(const nh_analysis *r, bool time)
+{
+    enum { most_named = 4 };
+    const nh_system *s = r->system;
+    if (s->coordinates > most_named) return time ? "t and the coordinates" : "the coordinates";
+    const char *text = time ? "t" : "";
+    for (size_t i = 0; i < s->coordinates; i++)
+        text = nh_arena_printf(r->arena, "%s%s%s", text, !*text ? "" : i + 1 < s->coordinates ? ", " : " and ",
+                               s->coordinate[i].name);
+    return text;
+}
+
+/* Is the statement the usual one: all integrals are polynomials in those found, everywhere, and all are proved? */
+static bool is_plain(const screen *x, const nh_completeness *c)
+{
+    return c->degree && c->linear && !c->regional && !c->count.where && !c->count.leaf && x->all_proved;
+}
+
+static void completeness(const screen *x)
+{
+    const nh_analysis *r = x->r;
+    const nh_completeness *c = counted_first(r), *time = &r->completeness[NH_COMPLETE_IN_TIME];
+    nh_text words;
+    if (r->search == NH_SEARCH_COMPLETE && r->independent >= r->local_maximum) return;
+    nh_text_init(&words);
+    if (!c || !is_plain(x, c)) {
+        nh_facts_completeness(r, &words);
+    } else {
+        nh_text_addf(&words,
+                     "Nothing else is conserved among polynomials in the velocities up to degree %zu, with any "
+                     "functions of %s as coefficients", c->degree, functions_of(r, c == time));
+        bool timed = c != time && time->counted && !time->count.obstacle && time->degree;
+        if (timed && time->degree < c->degree) nh_text_addf(&words, " (up to degree %zu if they may contain t)", time->degree);
+        else if (timed) nh_text_add(&words, ", which may contain t");
+        nh_text_addf(&words, "%s: proved.", r->count ? ", apart from combinations of these" : "");
+        const nh_completeness *open = c->missing_at ? c : timed && time->missing_at ? time : NULL;
+        if (open)
+            nh_text_addf(&words, " At degree %zu%s %zu more %s not ruled out.", open->missing_at,
+                         open == time && c != time ? ", with t in the coefficients," : "", open->missing,
+                         open->missing == 1 ? "is" : "are");
+    }
+    say(x, 0, &words);
+}
+
+/* ---- the motion that checks it, and the equations ---- */
+
+static void motion(const screen *x)
+{
+    const nh_analysis *r = x->r;
+    const nh_validation *v = r->validation;
+    double worst = -1;
+    for (size_t k = 0; k < r->count && v; k++)
+        if (isfinite(r->found[k].drift.drift[NH_DRIFT_RUNS - 1]))
+            worst = fmax(worst, r->found[k].drift.drift[NH_DRIFT_RUNS - 1]);
+    if (worst < 0) return;
+    nh_text words;
+    nh_text_init(&words);
+    nh_text_addf(&words, "Along a computed motion (t = %.4g to %.4g) %s by ", v->begin, v->end,
+                 r->count > 1 ? "they change" : "it changes");
+    nh_text_addf(&words, "%s%.2g of %s size.", r->count > 1 ? "at most " : "", worst, r->count > 1 ? "their" : "its");
+    double other = v->multistep ? v->multistep_difference : v->multiplier_form ? v->state_difference : NAN;
+    if (isfinite(other)) nh_text_addf(&words, " Another method gives the same motion to %.2g.", other);
+    say(x, 0, &words);
+}
+
+static void put_equation(const char *label, nh_dag *d, nh_ex e, nh_text *out)
+{
+    nh_text line;
+    nh_text_init(&line);
+    char *value = nh_print_string(d, e);
+    nh_text_addf(&line, "%s = %s", label, value);
+    nh_sheet_broken(2, 2 + hang, nh_text_string(&line), out);
+    nh_free(value);
+    nh_text_clear(&line);
+}
+
+/* "The constraint  y' = x'*tan(phi)  is nonholonomic." */
+static void put_constraints(const screen *x, nh_text *out)
+{
+    enum { most_written = 3 };
+    const nh_analysis *r = x->r;
+    const nh_system *s = r->system;
+    if (!r->model->k) return;
+    nh_text words;
+    nh_text_init(&words);
+    nh_text_addf(&words, "The %s", s->constraints == 1 ? "constraint" : "constraints");
+    for (size_t a = 0; a < s->constraints && s->constraints <= most_written; a++)
+        nh_text_addf(&words, "%s %s", a ? "," : "", s->constraint[a].text);
+    nh_text_addf(&words, " %s %s.", s->constraints == 1 ? "is" : "are",
+                 nh_constraint_integrability(r->model, &r->constraint));
+    nh_sheet_paragraph(0, 0, nh_text_string(&words), out);
+    nh_text_clear(&words);
+}
+
+/* The equations of motion, where they take few lines. */
+static void equations(const screen *x, size_t room)
+{
+    const nh_analysis *r = x->r;
+    const nh_model *o = r->model;
+    nh_text block;
+    nh_text_init(&block);
+    put_constraints(x, &block);
+    for (size_t s = 0; s < o->m && o->chart->quasi && !o->framed; s++)
+        put_equation(nh_arena_printf(o->arena, "%s'", o->system->coordinate[s].name), o->dag, o->rho[s], &block);
+    for (size_t i = 0; i < o->n; i++)
+        put_equation(nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i])), o->dag,
+                     nh_formula_shortened(r->analysis, o->dag, o->chart->roots ? nh_chart_shown(o->chart, o->a[i]) : o->a[i]),
+                     &block);
+    size_t n = lines_in(nh_text_string(&block));
+    bool fits = n <= few_equations || n <= room;
+    if (fits) nh_text_addf(x->out, "\n%s", nh_text_string(&block));
+    nh_text_clear(&block);
+}
+
+static void more(const screen *x)
+{
+    const nh_analysis *r = x->r;
+    nh_text_addf(x->out, "\nMore: --details   symmetries, equations%s, checks, how it was searched\n",
+                 r->motion ? ", the solution" : r->model->k ? ", constraint forces" : "");
+    nh_text_add(x->out, "      --html FILE the same, with the motion, in a page\n");
+}
+
+static void furthers(const screen *x)
+{
+    nh_text words;
+    if (!x->r->furthers) return;
+    nh_text_init(&words);
+    nh_text_addf(&words, "%zu further polynomial%s conserved too, as %s of these (--details).", x->r->furthers,
+                 x->r->furthers > 1 ? "s are" : " is", x->r->furthers > 1 ? "functions" : "a function");
+    say(x, 0, &words);
+}
+
+static void write(screen *x)
+{
+    enum { tail = 3 };
+    const nh_analysis *r = x->r;
+    title(x);
+    headline(x);
+    quantities(x);
+    nh_text_add(x->out, "\n");
+    completeness(x);
+    furthers(x);
+    motion(x);
+    for (size_t i = 0; i < r->warnings; i++)
+        nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), x->out);
+    size_t n = lines_in(nh_text_string(x->out)) + tail + 1;
+    equations(x, n < screen_lines ? screen_lines - n : 0);
+    more(x);
+}
+
+void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
+{
+    nh_text text;
+    nh_text_init(&text);
+    screen x = {.r = r, .out = &text, .colour = colour, .all_proved = true};
+    x.proof = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.proof);
+    for (size_t k = 0; k < r->count; k++) {
+        x.proof[k] = proof_of(r, &r->found[k]);
+        x.all_proved = x.all_proved && r->found[k].proof.proved && !r->found[k].series;
+    }
+    write(&x);
+    if (lines_in(nh_text_string(&text)) > screen_lines) {
+        nh_text_clear(&text);
+        x.terse = true;
+        write(&x);
+    }
+    nh_text_add(out, nh_text_string(&text));
+    nh_text_clear(&text);
+}
