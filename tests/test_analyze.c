@@ -51,6 +51,18 @@ static const char SLEIGH[] = "systems/sleigh.yaml", QUESTION[] = "analyses/sleig
 static const double SETS[][3] = {{2, 1, 1}, {2, 1, 2}, {2, 1, 3}, {2, 1, 4}, {1.3, 0.7, 1.5}};
 enum { SET_COUNT = sizeof SETS / sizeof *SETS };
 
+/* The shipped analysis without the program's own search: its ansatz alone. */
+static const char *alone(const char *path)
+{
+    char text[8000] = "search: no\n";
+    FILE *f = fopen(path, "r");
+    cr_assert_not_null(f);
+    size_t n = strlen(text);
+    text[n + fread(text + n, 1, sizeof text - n - 1, f)] = 0;
+    fclose(f);
+    return file("alone.yaml", text);
+}
+
 typedef struct {
     const char *system, *analysis;
     const double *set; /* m, a, k of the sleigh, or NULL */
@@ -64,6 +76,7 @@ static nh_analysis *ask(question q)
     nh_setting setting[3] = {{.name = "m"}, {.name = "a"}, {.name = "k"}};
     nh_error error = {0};
     nh_analyze_request request = {.system_path = q.system, .analysis_path = q.analysis, .setting = setting, .chart = q.chart};
+    if (q.analysis == QUESTION) request.analysis_path = alone(QUESTION);
     nh_options_default(&request.options);
     for (size_t i = 0; i < 3 && q.set; i++) setting[i].value = q.set[i];
     request.settings = q.set ? 3 : 0;
@@ -217,6 +230,16 @@ Test(analyze, the_sleigh_in_coordinate_velocities, WHOLE_ONLY)
     }
 }
 
+/* The ansatz of the shipped analysis, then the program's own search: all that can exist.  (Three of five.) */
+Test(analyze, the_sleigh_has_all_five_quantities)
+{
+    nh_analysis *r = ask((question){SLEIGH, "analyses/sleigh.yaml", NULL, NH_CHART_AUTO, 0, 1});
+    for (size_t i = 0; i < 4; i++) check_found(r, &PAPER[i]);
+    cr_expect(r->independent == 5 && r->local_maximum == 5 && r->search == NH_SEARCH_COMPLETE, "%zu", r->independent);
+    cr_expect(r->current.dimension == 4 && r->symmetry.dimension == 4, "the numbers of the problem are those of the ansatz");
+    nh_analysis_free(r);
+}
+
 /* The frequency gets its name wherever it is not ambiguous. */
 Test(analyze, the_frequency_is_recognised, PLAIN_ONLY)
 {
@@ -232,7 +255,7 @@ Test(analyze, the_frequency_is_recognised, PLAIN_ONLY)
 /* k = 1, all the mass in the centre: no multiplier, the centre of mass moves uniformly, both components of its momentum are found. */
 Test(analyze, the_sleigh_without_inertia_about_its_centre, PLAIN_ONLY)
 {
-    const char *text = "name: q\nsystem: sleigh\nansatz:\n"
+    const char *text = "name: q\nsystem: sleigh\nsearch: no\nansatz:\n"
                        "  - product:\n"
                        "      - terms: [omega, v]\n"
                        "      - {basis: fourier, in: phi, harmonics: 1}\n"
@@ -282,7 +305,7 @@ static const char *sleigh_with(const char *extra, const char *lagrangian_too)
 static const char *ansatz(const char *items)
 {
     static char text[3000];
-    snprintf(text, sizeof text, "name: q\nsystem: any\nansatz:\n%s", items);
+    snprintf(text, sizeof text, "name: q\nsystem: any\nsearch: no\nansatz:\n%s", items);
     return file("analysis.yaml", text);
 }
 

@@ -69,7 +69,7 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"show", "nhsym: `nhsym show` needs the name of a system\nhint: nhsym show sleigh\n"},
         {"analyze sleigh --htm page.html", "nhsym: there is no option `--htm`\nhint: write the full name: `--html`\n"},
         {"analyze sleigh --qui", "nhsym: there is no option `--qui`\nhint: write the full name: `--quiet`\n"},
-        {"analyze sleigh --html=page.html --verb", "nhsym: there is no option `--verb`\nhint: write the full name: `--verbose`\n"},
+        {"analyze sleigh --html=page.html --detail", "nhsym: there is no option `--detail`\nhint: write the full name: `--details`\n"},
         {"analyze sleigh --budget 2s", "nhsym: `nhsym analyze` does not take --budget\nhint: `nhsym help analyze` lists its options; this one belongs to: benchmark\n"},
         {"reduce sleigh --analysis sleigh", "nhsym: `nhsym reduce` does not take --analysis\nhint: `nhsym help reduce` lists its options; this one belongs to: analyze simulate benchmark\n"},
         {"--html page.html list", "nhsym: `nhsym list` does not take --html\nhint: `nhsym help list` lists its options; this one belongs to: analyze verify simulate benchmark reduce classify scan linearize\n"},
@@ -168,7 +168,7 @@ Test(cli, no_current_is_a_success)
     place p = place_make();
     write_here(&p, "mine.yaml", "name: mine\ncoordinates: [x, y]\nlagrangian: x'^2 + y'^2\nforces:\n  - x = -0.3*x' + y^2*x\n  - y = -0.4*y' - x^3\n");
     write_here(&p, "ask.yaml", "ansatz:\n  - {basis: polynomial, in: [x', y', x, y], degree: 2}\n");
-    finished f = run_expecting(&p, "analyze mine.yaml --analysis ./ask.yaml", 0);
+    finished f = run_expecting(&p, "analyze -v mine.yaml --analysis ./ask.yaml", 0);
     check_contains(f.out, "NONE");
     finished_clear(&f);
     place_clear(&p);
@@ -345,7 +345,7 @@ Test(cli, list_and_show)
 
 Test(cli, a_system_of_ones_own_in_an_empty_folder, PLAIN_ONLY)
 {
-    static const char *const lines[] = {"analyze mine.yaml", "analyze ./mine.yaml", "analyze sub/mine.yaml", "analyze free"};
+    static const char *const lines[] = {"analyze -v mine.yaml", "analyze -v ./mine.yaml", "analyze -v sub/mine.yaml", "analyze -v free"};
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
     folder_here(&p, "sub", 0755);
@@ -398,7 +398,7 @@ Test(cli, a_folder_may_hold_systems_and_analyses, PLAIN_ONLY)
     write_here(&p, "mixed/weight.yaml", "name: weight\ncoordinates: [x]\nlagrangian: x'^2/2 - 9.81*x\n");
     write_here(&p, "mixed/spring.yaml", "name: of the spring\nsystem: spring\nansatz: [{basis: polynomial, in: [x, x'], degree: 2}]\n");
     write_here(&p, "bare/spring.yaml", "name: spring\ntitle: A spring\ncoordinates: [x]\nlagrangian: x'^2/2 - x^2/2\n");
-    finished a = run_so(&p, &(manner){.environment = path}, "analyze weight"), b = run_so(&p, &(manner){.environment = path}, "analyze spring");
+    finished a = run_so(&p, &(manner){.environment = path}, "analyze -v weight"), b = run_so(&p, &(manner){.environment = path}, "analyze -v spring");
     finished c = run_so(&p, &(manner){.environment = path}, "simulate weight --initial x=1 --until 1"), d = run_so(&p, &(manner){.environment = path}, "list");
     cr_expect_eq(a.code, 0);
     check_contains(a.out, "minus the energy");
@@ -429,7 +429,7 @@ Test(cli, the_installed_program_works_from_anywhere, .timeout = 300, PLAIN_ONLY)
     finished made = run_vector(&p, &(manner){0}, argument);
     cr_assert_eq(made.code, 0, "make install: %s%s", made.out, made.err);
     snprintf(p.program, sizeof p.program, "%.1000s/root/opt/nh/bin/nhsym", p.folder);
-    finished list = run_expecting(&p, "list", 0), f = run_expecting(&p, "analyze sleigh --set k=3", 0);
+    finished list = run_expecting(&p, "list", 0), f = run_expecting(&p, "analyze -v sleigh --set k=3", 0);
     check_contains(list.out, "sleigh ");
     check_contains(f.out, "nu = 1/k");
     check_contains(f.out, "as given in the analysis file");
@@ -445,7 +445,7 @@ Test(cli, settings_reach_the_result, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
-    finished f = run_expecting(&p, "analyze mine.yaml --set m=0.125", 0), last = run_expecting(&p, "analyze --set m=3 mine.yaml --set m=7.5", 0);
+    finished f = run_expecting(&p, "analyze -v mine.yaml --set m=0.125", 0), last = run_expecting(&p, "analyze -v --set m=3 mine.yaml --set m=7.5", 0);
     check_contains(f.out, "A particle without forces   with m = 0.125\n");
     check_contains(last.out, "A particle without forces   with m = 7.5\n");
     finished_clear(&f);
@@ -486,7 +486,7 @@ Test(cli, colours_only_on_a_terminal_that_wants_them, PLAIN_ONLY)
     static const char *const without[] = {"NO_COLOR=1", "TERM=xterm", NULL}, *const with[] = {"TERM=xterm", NULL};
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
-    finished pipe = run_so(&p, &(manner){.environment = with}, "analyze mine.yaml");
+    finished pipe = run_so(&p, &(manner){.environment = with}, "analyze -v mine.yaml");
     check_contains(pipe.out, "FOUND");
     cr_expect_not(coloured(&pipe));
     finished_clear(&pipe);
@@ -495,9 +495,9 @@ Test(cli, colours_only_on_a_terminal_that_wants_them, PLAIN_ONLY)
         place_clear(&p);
         return;
     }
-    finished terminal = run_so(&p, &(manner){.terminal = true, .environment = with}, "analyze mine.yaml");
-    finished no_color = run_so(&p, &(manner){.terminal = true, .environment = without}, "analyze mine.yaml");
-    finished option = run_so(&p, &(manner){.terminal = true, .environment = with}, "analyze mine.yaml --no-color");
+    finished terminal = run_so(&p, &(manner){.terminal = true, .environment = with}, "analyze -v mine.yaml");
+    finished no_color = run_so(&p, &(manner){.terminal = true, .environment = without}, "analyze -v mine.yaml");
+    finished option = run_so(&p, &(manner){.terminal = true, .environment = with}, "analyze -v mine.yaml --no-color");
     cr_expect(coloured(&terminal), "%s", terminal.out);
     cr_expect_not(coloured(&no_color));
     cr_expect_not(coloured(&option));
@@ -522,7 +522,7 @@ static void cut_last_line(char *text)
 Test(cli, the_same_question_gets_the_same_answer, PLAIN_ONLY)
 {
     place p = place_make();
-    finished a = run_with_path(&p, "analyze sleigh --seed 5"), b = run_with_path(&p, "analyze sleigh --seed 5"), c = run_with_path(&p, "analyze sleigh --seed 6");
+    finished a = run_with_path(&p, "analyze -v sleigh --seed 5"), b = run_with_path(&p, "analyze -v sleigh --seed 5"), c = run_with_path(&p, "analyze -v sleigh --seed 6");
     cut_last_line(a.out);
     cut_last_line(b.out);
     cut_last_line(c.out);
@@ -538,8 +538,8 @@ Test(cli, an_analysis_file_chooses_system_and_ansatz)
 {
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
-    write_here(&p, "ask.yaml", "system: ./mine.yaml\nset: {m: 4.5}\nansatz:\n  - terms: [\"x'\", \"x'*y\", x]\n");
-    finished f = run_expecting(&p, "analyze --analysis ./ask.yaml", 0), g = run_expecting(&p, "analyze mine.yaml --analysis ./ask.yaml --set m=6.5", 0);
+    write_here(&p, "ask.yaml", "system: ./mine.yaml\nsearch: no\nset: {m: 4.5}\nansatz:\n  - terms: [\"x'\", \"x'*y\", x]\n");
+    finished f = run_expecting(&p, "analyze -v --analysis ./ask.yaml", 0), g = run_expecting(&p, "analyze -v mine.yaml --analysis ./ask.yaml --set m=6.5", 0);
     check_contains(f.out, "A particle without forces   with m = 4.5\n");
     check_contains(f.out, "FOUND: 1 independent current");
     check_contains(g.out, "A particle without forces   with m = 6.5\n"); /* the command line has the last word */

@@ -167,8 +167,8 @@ Test(cli_json, the_sleigh_has_every_key)
     cr_expect_eq(cJSON_GetNumberValue(find(root, "dimension.submanifold")), 6.0);
     cr_expect_str_eq(cJSON_GetStringValue(find(root, "constraint.type")), "linear");
     cr_expect_str_eq(cJSON_GetStringValue(find(root, "unknowns.nu.0.recognised")), "1/k");
-    cr_expect_eq(cJSON_GetArraySize(find(root, "currents")), 4);
-    cr_expect_eq(cJSON_GetNumberValue(find(root, "independent_currents")), 3.0);
+    cr_expect_eq(cJSON_GetArraySize(find(root, "currents")), 6);
+    cr_expect_eq(cJSON_GetNumberValue(find(root, "independent_currents")), 5.0);
     cr_expect_eq(cJSON_GetNumberValue(find(root, "local_maximum")), 5.0);
     cr_expect_eq(cJSON_GetArraySize(find(root, "nullspace.spectrum")), (int)cJSON_GetNumberValue(find(root, "nullspace.rank")));
     cJSON_Delete(root);

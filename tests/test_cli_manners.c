@@ -107,7 +107,7 @@ Test(cli_manners, new_writes_a_system_that_works_and_never_over_another, PLAIN_O
 Test(cli_manners, a_folder_takes_all_outputs, PLAIN_ONLY)
 {
     place p = place_with_systems();
-    finished f = run_expecting(&p, "analyze sleigh -o out --no-color", 0);
+    finished f = run_expecting(&p, "analyze -v sleigh -o out --no-color", 0);
     char *summary = read_here(&p, "out/summary.txt"), *page = read_here(&p, "out/report.html"), *json = read_here(&p, "out/result.json"), *tex = read_here(&p, "out/report.tex"),
          *figure = read_here(&p, "out/figure1.svg");
     cr_assert(summary && page && json && tex && figure);
@@ -115,7 +115,7 @@ Test(cli_manners, a_folder_takes_all_outputs, PLAIN_ONLY)
     cr_expect(!strncmp(figure, "<svg xmlns=", 11) && strstr(page, figure), "a figure of the page");
     cJSON *root = cJSON_Parse(json);
     cr_expect_not_null(root);
-    cr_expect_str_eq(cJSON_GetStringValue(cJSON_GetObjectItem(cJSON_GetObjectItem(root, "run"), "command")), "nhsym analyze sleigh -o out --no-color");
+    cr_expect_str_eq(cJSON_GetStringValue(cJSON_GetObjectItem(cJSON_GetObjectItem(root, "run"), "command")), "nhsym analyze -v sleigh -o out --no-color");
     cJSON_Delete(root);
     int depth = 0, begin = 0, end = 0; /* LaTeX: groups and environments are closed */
     for (const char *c = tex; *c; c++) {
@@ -132,12 +132,13 @@ Test(cli_manners, a_folder_takes_all_outputs, PLAIN_ONLY)
     cr_expect_not_null(strstr(tex, "\\dot{y}"));
     free(summary), free(page), free(json), free(tex), free(figure);
     finished_clear(&f);
-    f = run_expecting(&p, "analyze sleigh -o nowhere/out", 4);
+    f = run_expecting(&p, "analyze -v sleigh -o nowhere/out", 4);
     finished_clear(&f);
     place_clear(&p);
 }
 
-/* Every command whose result has a document; a motion is a table there, the others have a summary. */
+/* Every command whose result has a document; a motion is a table there, the others have a summary, with
+ * all details. */
 Test(cli_manners, every_result_has_a_folder)
 {
     static const struct {
@@ -158,7 +159,6 @@ Test(cli_manners, every_result_has_a_folder)
             snprintf(name, sizeof name, "out%zu/%s", i, files[k]);
             char *text = read_here(&p, name);
             cr_expect(text && *text, "%s: %s", line, name);
-            if (k == 0 && !strcmp(files[k], "summary.txt")) cr_expect_str_eq(text, f.out);
             free(text);
         }
         finished_clear(&f);
@@ -348,7 +348,7 @@ static size_t read_bars(const char *text, int *height, size_t most)
 Test(cli_manners, spectrum_and_drifts_are_drawn, PLAIN_ONLY)
 {
     place p = place_with_systems();
-    finished f = run_expecting(&p, "analyze sleigh", 0);
+    finished f = run_expecting(&p, "analyze -v sleigh", 0);
     int height[200];
     const char *line = strstr(f.out, "current route: "), *bars = line ? line : "";
     cr_assert_eq(read_bars(bars, height, 200), 17u, "one bar for every independent column: %.200s", bars);
@@ -358,7 +358,7 @@ Test(cli_manners, spectrum_and_drifts_are_drawn, PLAIN_ONLY)
     cr_expect_eq(read_bars(phi, height, 200), 24u, "%.200s", phi);
     for (size_t i = 0; i < 24; i++) cr_expect(height[i] >= 1 && height[i] <= 5, "a drift of 1e-10 between 1e-16 and 1: %d", height[i]);
     finished_clear(&f);
-    f = run_expecting(&p, "analyze sleigh --quiet", 0);
+    f = run_expecting(&p, "analyze -v sleigh --quiet", 0);
     cr_expect_str_empty(f.out);
     finished_clear(&f);
     place_clear(&p);
@@ -515,7 +515,7 @@ Test(cli_manners, quiet_keeps_a_table_that_nothing_else_holds)
 Test(cli_manners, definitions_stand_where_they_are_needed)
 {
     place p = place_make();
-    finished f = run_expecting(&p, "analyze sleigh", 0);
+    finished f = run_expecting(&p, "analyze -v sleigh", 0);
     const char *current = strstr(f.out, "\n  Phi4 = "), *definition = current ? strstr(current, "\n  R = ") : NULL;
     const char *next = current ? strstr(current, "Certified") : NULL;
     cr_assert(current && definition && next, "%s", f.out);
@@ -523,7 +523,7 @@ Test(cli_manners, definitions_stand_where_they_are_needed)
     cr_expect_null(strstr(definition + 1, "\n  R = "));
     cr_expect_eq(definition, strstr(f.out, "\n  R = "));
     finished_clear(&f);
-    f = run_expecting(&p, "analyze toda_lattice", 0);
+    f = run_expecting(&p, "analyze -v toda_lattice", 0);
     for (const char *const *name = (const char *const[]){"\n  a = ", "\n  b1 = ", "\n  c = ", NULL}; *name; name++) {
         const char *once = strstr(f.out, *name);
         cr_expect(once && !strstr(once + 1, *name), "%s", *name);
@@ -560,13 +560,13 @@ Test(cli_manners, a_search_that_disagrees_with_the_count_is_an_error)
     place p = place_make();
     write_here(&p, "a.yaml", "name: a\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2\n");
     write_here(&p, "b.yaml", "name: b\nsystem: a.yaml\nansatz:\n  - {basis: polynomial, in: [x, y, x', y'], degree: 2}\n");
-    finished f = run(&p, "analyze a.yaml --analysis b.yaml");
+    finished f = run(&p, "analyze -v a.yaml --analysis b.yaml");
     cr_expect_eq(f.code, 0, "%s", f.err);
     finished_clear(&f);
-    f = run(&p, "analyze a.yaml --analysis b.yaml --option agreement=1e-30");
+    f = run(&p, "analyze -v a.yaml --analysis b.yaml --option agreement=1e-30");
     cr_expect(f.code == 4 && strstr(f.err, "the sampled problem and the count disagree") && strstr(f.out, "FOUND"), "%d %s", f.code, f.err);
     finished_clear(&f);
-    f = run(&p, "analyze b.yaml");
+    f = run(&p, "analyze -v b.yaml");
     cr_expect(f.code == 3 && strstr(f.err, "--analysis"), "%d %s", f.code, f.err);
     finished_clear(&f);
     place_clear(&p);

@@ -85,7 +85,7 @@ Test(edges, samples_that_lie_close_together, PLAIN_ONLY)
         write_clustered(path, r);
         row o = judged(path, "analyses/sleigh.yaml", NULL, 0);
         cr_expect(o.wrong == 0, "edge %g: %s", r, o.names);
-        if (r > 0.01) cr_expect_eq(o.found, 3, "edge %g", r);
+        if (r > 0.01) cr_expect_geq(o.found, 3, "edge %g", r);
         remove(path);
     }
 }

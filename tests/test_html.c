@@ -444,7 +444,7 @@ Test(html, the_page_needs_nothing_else, PLAIN_ONLY)
     for (const char *c = page; (c = strstr(c, "http:")); c++) cr_expect(!strncmp(c, "http://www.w3.org/", 18), "%.60s", c);
     for (const char *c = page; (c = strstr(c, "href=\"")); c++) cr_expect_eq(c[6], '#');
     for (const char *c = page; (c = strstr(c, "<svg ")); c++) cr_expect(!strncmp(strstr(c, "role="), "role=\"img\"", 10), "%.100s", c);
-    cr_expect_not_null(strstr(page, "3</data> independent currents"));
+    cr_expect_not_null(strstr(page, "5</data> independent currents"));
     free(page);
     place_clear(&p);
 }

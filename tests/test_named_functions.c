@@ -574,7 +574,7 @@ Test(named_functions, motions)
     cr_assert(isfinite(first) && fabs(first) > 0.01 && fabs(first - last) < 1e-8, "%g %g", first, last);
     finished_clear(&r);
     write_here(&p, "well.yaml", "name: well\ncoordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 + bessel_j(0, x)\n");
-    r = run(&p, "analyze well.yaml");
+    r = run(&p, "analyze -v well.yaml");
     cr_assert_eq(r.code, 0, "%s", r.err);
     cr_assert(strstr(r.out, "bessel_j(0, x)") && strstr(r.out, "minus the energy") && strstr(r.out, "proved"), "%s", r.out);
     finished_clear(&r);

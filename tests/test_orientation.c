@@ -184,7 +184,7 @@ Test(orientation, analysis_is_written_in_matrix_entries, PLAIN_ONLY)
     write_here(&p, "top.yaml", "name: top\nparameters: {A: 1.1, C: 1.7, m: 1.3, g: 9.81, l: 0.4}\n"
                                "coordinates: [{name: R, type: orientation, velocities: [p, q, r]}]\n"
                                "lagrangian: (A*(p^2 + q^2) + C*r^2)/2 - m*g*l*R_zz\n");
-    char *text = printed(&p, "$N analyze top.yaml");
+    char *text = printed(&p, "$N analyze -v top.yaml");
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) cr_expect(strstr(text, wanted[i]), "no `%s` in\n%s", wanted[i], text);
     free(text);
     text = printed(&p, "$N verify top.yaml --current \"A*(R_zx*p + R_zy*q) + C*R_zz*r\"");

@@ -267,7 +267,7 @@ Test(robot_files, a_spherical_joint_has_three_turns, PLAIN_ONLY)
         char text[700];
         snprintf(text, sizeof text, "<robot name=\"r\"><link name=\"world\"/>" INERTIA("ixx=\"1\" iyy=\"1\" izz=\"1\"") "<joint name=\"hip\" type=\"%s\"><parent link=\"world\"/><child link=\"arm\"/></joint></robot>", types[i]);
         write_here(&p, "r.urdf", text);
-        finished f = run_expecting(&p, "analyze r.urdf", 0); /* its energy, and the momentum about the vertical */
+        finished f = run_expecting(&p, "analyze -v r.urdf", 0); /* its energy, and the momentum about the vertical */
         cr_expect(strstr(f.out, "3 coordinates") && strstr(f.out, "hip_a"), "%s", f.out);
         finished_clear(&f);
     }

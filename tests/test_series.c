@@ -320,7 +320,7 @@ Test(series, the_interval_of_time_is_said_everywhere, .timeout = 120)
 {
     place p = place_make();
     write_here(&p, "airy.yaml", airy);
-    finished f = run_expecting(&p, "analyze airy.yaml --option named=0 --tex a.tex --json a.json --html a.html", 0);
+    finished f = run_expecting(&p, "analyze -v airy.yaml --option named=0 --tex a.tex --json a.json --html a.html", 0);
     char *tex = read_here(&p, "a.tex"), *page = read_here(&p, "a.html"), *json = read_here(&p, "a.json");
     unfold(f.out);
     cr_expect_not_null(strstr(f.out, " in t, without closed form among the functions of the search, on [-0.4, 10.4]."), "%s", f.out);

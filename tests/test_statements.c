@@ -21,7 +21,7 @@ static char *read_or_fail(const place *p, const char *name)
 static reports analyze(const place *p, const char *system)
 {
     char line[300];
-    snprintf(line, sizeof line, "analyze %s --json a.json --html a.html --tex a.tex", system);
+    snprintf(line, sizeof line, "analyze -v %s --json a.json --html a.html --tex a.tex", system);
     finished f = run_expecting(p, line, 0);
     reports r = {.text = f.out, .page = read_or_fail(p, "a.html"), .tex = read_or_fail(p, "a.tex"), .source = read_or_fail(p, "a.json")};
     free(f.err);

@@ -213,14 +213,14 @@ static size_t verified(place *p, const cJSON *root, const char *section, const c
 Test(symmetry_space, of_the_sleigh_only_functions_of_the_energy_have_their_brackets_in_the_distribution, PLAIN_ONLY)
 {
     place p = place_with_systems();
-    finished f = run(&p, "analyze sleigh --set k=3 --equations --json=r.json");
+    finished f = run(&p, "analyze -v sleigh --set k=3 --equations --json=r.json");
     cr_assert_eq(f.code, 0, "%s", f.err);
     cr_expect(strstr(f.out, "Gamma and U_1 span with their brackets 5 of 6 dimensions"), "%s", f.out);
     finished_clear(&f);
     char *json = read_here(&p, "r.json");
     cJSON *root = cJSON_Parse(json);
     cr_expect(says(root, "bracket_bounds", "So the currents with [Gamma,Z] in the canonical distribution are the functions of Phi1, and no others: proved."));
-    cr_expect_eq(number_of(root, "dim"), 7);
+    cr_expect_eq(number_of(root, "dim"), 9);
     cr_expect_eq(number_of(root, "dim_projectable"), 3);
     cr_expect_eq(number_of(root, "dim_case1"), 2);
     cJSON_Delete(root);

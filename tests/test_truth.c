@@ -66,7 +66,7 @@ Test(truth, what_a_file_states_of_currents_is_judged, .timeout = 120)
         char file[600];
         snprintf(file, sizeof file, TWO_SPRINGS "known: {%s: [{name: it, expr: \"%s\"}]}\n", statement[i].as, statement[i].expr);
         write_here(&p, "s.yaml", file);
-        told t = tell(&p, "analyze s.yaml --html a.html --tex a.tex", 0);
+        told t = tell(&p, "analyze -v s.yaml --html a.html --tex a.tex", 0);
         char *page = read_here(&p, "a.html"), *tex = read_here(&p, "a.tex");
         const nh_json *it = nh_json_entry(nh_json_get(t.json, "stated"), 0);
         const char *verdict = nh_json_text(it, "verdict");

@@ -213,8 +213,8 @@ Test(urdf, wheels_and_base_are_named_on_the_command_line_or_in_a_file_beside_it,
     place p = place_make();
     write_here(&p, "cart.urdf", cart);
     write_here(&p, "cart.yaml", "urdf: cart.urdf\nwheels: [l.wheel, {body: r_wheel, radius: 0.1}]\n");
-    finished line = run_expecting(&p, "analyze cart.urdf --wheel l.wheel --wheel r.wheel=0.1", 0);
-    finished file = run_expecting(&p, "analyze cart.yaml", 0);
+    finished line = run_expecting(&p, "analyze -v cart.urdf --wheel l.wheel --wheel r.wheel=0.1", 0);
+    finished file = run_expecting(&p, "analyze -v cart.yaml", 0);
     cr_expect_not_null(strstr(line.out, "5 coordinates, 3 linear constraints"), "%s", line.out);
     cr_expect_not_null(strstr(line.out, "FOUND: 7 independent currents of at most 7"), "%s", line.out);
     cr_expect_eq(strncmp(line.out, file.out, (size_t)(strstr(line.out, "How it was found") - line.out)), 0, "other currents");

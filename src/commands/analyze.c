@@ -127,19 +127,6 @@ static bool linear_problem(nh_analysis *r, size_t families, const nh_family *fam
     return good;
 }
 
-/* Where the ansatz of the user holds currents, and more can exist, the program's own search follows; the numbers of the
- * problem remain those of the ansatz. */
-static bool go_on(nh_analysis *r, nh_error *error)
-{
-    nh_spectrum given = r->current;
-    size_t samples = r->samples, beyond = r->beyond, rejected = r->rejected;
-    if (!r->count || r->search == NH_SEARCH_COMPLETE || nh_late()) return true;
-    bool good = nh_staged_search_run(r, error);
-    r->current = given;
-    r->samples = samples, r->beyond = beyond, r->rejected = rejected;
-    return good;
-}
-
 /* After the deadline anything may be missing. */
 static void watch_deadline(nh_analysis *r)
 {
@@ -151,6 +138,21 @@ static void watch_deadline(nh_analysis *r)
                          r->options.max_seconds);
     }
     nh_deadline_set(INFINITY);
+}
+
+/* Where the ansatz of the user holds currents, and more can exist, the program's own search follows, and what the count
+ * says is missing; the numbers of the problem remain those of the ansatz. */
+static bool go_on(nh_analysis *r, nh_error *error)
+{
+    nh_spectrum given = r->current;
+    size_t samples = r->samples, beyond = r->beyond, rejected = r->rejected;
+    bool searched = r->count && !r->analysis->alone && r->search == NH_SEARCH_EXHAUSTED && !nh_late();
+    if (searched && !nh_staged_search_run(r, error)) return false;
+    watch_deadline(r);
+    if (!nh_late()) nh_missing_count(r, r->stages > 0);
+    r->current = given;
+    r->samples = samples, r->beyond = beyond, r->rejected = rejected;
+    return true;
 }
 
 /* FOUND needs a certificate for every current; NONE needs that no null vector and no omitted stage is left open. */
@@ -366,6 +368,8 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
         r->ansatz_note = "chosen by the program: stages made of the system's own functions";
         if (!nh_staged_search_run(r, error)) return false;
         r->timing.nullspace = lap(&clock);
+        watch_deadline(r);
+        if (!nh_late()) nh_missing_count(r, true);
     } else {
         r->ansatz_note = "as given in the analysis file";
         nh_progress("the ansatz of the analysis file", -1);
@@ -377,10 +381,8 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
         r->search = !solved                              ? NH_SEARCH_CUT
                     : r->independent >= r->local_maximum ? NH_SEARCH_COMPLETE
                                                          : NH_SEARCH_EXHAUSTED;
-        if (solved && !go_on(r, error)) return false;
+        if (!go_on(r, error)) return false;
     }
-    watch_deadline(r);
-    if (!nh_late()) nh_missing_count(r, r->stages > 0);
     if (!nh_late()) nh_agreement_find(r);
     if (!nh_interrupted()) nh_symmetries_find(r);
     conclude(r);

@@ -13,7 +13,8 @@
 
 static const char *const top_keys[] = {"name",        "system",     "set",   "route",    "ansatz",
                                        "unknowns",    "samples",    "seed",  "validate", "scene",
-                                       "definitions", "velocities", "title", "doc",      "figures"};
+                                       "definitions", "velocities", "title", "doc",      "figures",
+                                       "search"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
@@ -63,7 +64,8 @@ static bool read_settings(nh_analysis_file *a, const nh_deck_node *map, nh_error
 static bool read_head(nh_analysis_file *a, nh_error *error)
 {
     static const char *const routes[] = {"both", "symmetry", "current"}, *const velocities[] = {"auto", "quasi",
-                                                                                                "coordinates"};
+                                                                                                "coordinates"},
+        *const searches[] = {"yes", "no"};
     const nh_deck_node *root = nh_deck_root(a->deck), *node;
     size_t index = 0;
     if (!nh_deck_is(a->deck, root, NH_DECK_MAP, "an analysis file (system: ..., ansatz: ...)", error)) return false;
@@ -81,6 +83,10 @@ static bool read_head(nh_analysis_file *a, nh_error *error)
     if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "velocities"), "velocities", 3, velocities, &index, error))
         return false;
     a->chart = (nh_chart_choice)index;
+    index = 0;
+    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "search"), "search", 2, searches, &index, error))
+        return false;
+    a->alone = index == 1;
     long whole;
     if ((node = nh_deck_get(root, "samples"))) {
         if (!nh_deck_whole(a->deck, node, "samples", 16, 10000000, &whole, error)) return false;

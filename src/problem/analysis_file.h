@@ -32,6 +32,7 @@ typedef struct {
     nh_setting *setting;
     nh_chart_choice chart;
     nh_route route;
+    bool alone; /* the ansatz alone: the program's own search does not follow */
     bool has_seed, has_samples, has_tolerance;
     double seed, samples, tolerance;
     /* the rest, after nh_analysis_file_resolve */

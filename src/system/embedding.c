@@ -319,7 +319,7 @@ static size_t rank_of_map(const nh_chart *c, double *even, size_t *usable, bool 
     }
     for (size_t i = 0; i < m * n; i++) R[i] = nh_system_values(c->system, d, R[i]);
     size_t rank = 0;
-    *exact = nh_generic_rank(d, m, n, R, &rank);
+    *exact = nh_generic_rank(d, n, m, R, &rank); /* columns of d rho/dw as rows */
     nh_free(a);
     nh_tape_work_free(work);
     nh_tape_free(tape);
