@@ -98,7 +98,8 @@ static void headline(const screen *x)
         nh_text_addf(&words, "The only conserved quantity that can exist was found%s.", proved);
     else if (n == most) nh_text_addf(&words, "All %zu conserved quantities that can exist were found%s.", n, proved);
     else if (n == 1 && is_energy(&r->found[0]))
-        nh_text_addf(&words, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.", most);
+        nh_text_addf(&words, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.",
+                     most);
     else
         nh_text_addf(&words, "%zu independent conserved quantit%s found. At most %zu can exist.", n,
                      n == 1 ? "y was" : "ies were", most);
@@ -347,7 +348,8 @@ static void completeness(const screen *x)
                      "Nothing else is conserved among polynomials in the velocities up to degree %zu, with any "
                      "functions of %s as coefficients", c->degree, functions_of(r, c == time));
         bool timed = c != time && time->counted && !time->count.obstacle && time->degree;
-        if (timed && time->degree < c->degree) nh_text_addf(&words, " (up to degree %zu if they may contain t)", time->degree);
+        if (timed && time->degree < c->degree)
+            nh_text_addf(&words, " (up to degree %zu if they may contain t)", time->degree);
         else if (timed) nh_text_add(&words, ", which may contain t");
         nh_text_addf(&words, "%s: proved.", r->count ? ", apart from combinations of these" : "");
         const nh_completeness *open = c->missing_at ? c : timed && time->missing_at ? time : NULL;
@@ -419,10 +421,11 @@ static void equations(const screen *x, size_t room)
     put_constraints(x, &block);
     for (size_t s = 0; s < o->m && o->chart->quasi && !o->framed; s++)
         put_equation(nh_arena_printf(o->arena, "%s'", o->system->coordinate[s].name), o->dag, o->rho[s], &block);
-    for (size_t i = 0; i < o->n; i++)
+    for (size_t i = 0; i < o->n; i++) {
+        nh_ex a = o->chart->roots ? nh_chart_shown(o->chart, o->a[i]) : o->a[i];
         put_equation(nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i])), o->dag,
-                     nh_formula_shortened(r->analysis, o->dag, o->chart->roots ? nh_chart_shown(o->chart, o->a[i]) : o->a[i]),
-                     &block);
+                     nh_formula_shortened(r->analysis, o->dag, a), &block);
+    }
     size_t n = lines_in(nh_text_string(&block));
     bool fits = n <= few_equations || n <= room;
     if (fits) nh_text_addf(x->out, "\n%s", nh_text_string(&block));
