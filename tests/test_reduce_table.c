@@ -180,22 +180,29 @@ static void check(size_t i)
     free(text);
 }
 
-/* Subgroups that act freely are sought among all combinations of the generators, not only among these. */
+/* Subgroups that act freely are sought among all combinations of the generators, not only among these: of the whole
+ * group, of the second stage, and on level sets of the momentum. */
 Test(reduce_table, a_free_subgroup_of_combinations)
 {
     static const struct {
         known system;
-        const char *group;
+        const char *group[3]; /* of each stage */
     } known_ones[] = {
-        {{"a:angle b:angle c:angle", "(a'^2 + sin(a)^2*b'^2 + cos(a)^2*c'^2)/2", "domain: {a: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, "SO(3)"},
-        {{"r f:angle", "(r'^2 + sinh(r)^2*f'^2)/2", "domain: {r: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, "Aff(1)"},
-        {{"x y", "2*(x'^2 + y'^2)/(1 - x^2 - y^2)^2", "domain: {x: [-0.5, 0.5], y: [-0.5, 0.5]}", "", 0, 0, UNTESTED, false, NULL}, "Aff(1)"},
+        {{"a:angle b:angle c:angle", "(a'^2 + sin(a)^2*b'^2 + cos(a)^2*c'^2)/2", "domain: {a: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, {"SO(3)", "SO(3)"}},
+        {{"r f:angle", "(r'^2 + sinh(r)^2*f'^2)/2", "domain: {r: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, {"Aff(1)", "Aff(1)"}},
+        {{"x y", "2*(x'^2 + y'^2)/(1 - x^2 - y^2)^2", "domain: {x: [-0.5, 0.5], y: [-0.5, 0.5]}", "", 0, 0, UNTESTED, false, NULL}, {"Aff(1)", "Aff(1)"}},
+        {{"a:angle b:angle c:angle z", "(a'^2 + sin(a)^2*b'^2 + cos(a)^2*c'^2)/2 + z'^2/2", "domain: {a: [0.4, 1.2]}\nconstraints: [\"z' = 0\"]", "", 0, 0, UNTESTED, false, NULL}, {"R", "SO(3)", "SO(3) x R"}},
+        {{"r f:angle z", "(r'^2 + sinh(r)^2*f'^2)/2 + z'^2/2", "domain: {r: [0.4, 1.2]}\nconstraints: [\"z' = 0\"]", "", 0, 0, UNTESTED, false, NULL}, {"R", "Aff(1)", "Aff(1) x R"}},
+        {{"r f:angle z", "(r'^2 + sinh(r)^2*f'^2)/2 + z'^2/2 - z^2", "domain: {r: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, {"Aff(1)", "Aff(1)"}},
+        {{"r f:angle z", "(r'^2 + sinh(r)^2*f'^2)/2 + z'^2/2", "domain: {r: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, {"Aff(1) x R", "Aff(1) x R"}},
     };
     for (size_t i = 0; i < sizeof known_ones / sizeof *known_ones; i++) {
         nh_reduction *r = reduced(&known_ones[i].system);
-        cr_assert(r->stages > 0);
-        cr_expect_str_eq(r->stage[0].group, known_ones[i].group, "%zu: %s", i, r->stage[0].group);
-        cr_expect_eq(r->stage[0].shown->n, 0, "%zu: %zu shape coordinates", i, r->stage[0].shown->n);
+        for (size_t k = 0; k < r->stages; k++) {
+            cr_expect_str_eq(r->stage[k].group, known_ones[i].group[k], "%zu, stage %zu: %s", i, k + 1, r->stage[k].group);
+            cr_expect(r->stage[k].printed < 1e-8, "%zu, stage %zu: as printed %g", i, k + 1, r->stage[k].printed);
+        }
+        cr_assert(r->stages >= 2 && (r->stages == 3 || !known_ones[i].group[2]), "%zu: %zu stages", i, r->stages);
         nh_reduction_free(r);
     }
 }

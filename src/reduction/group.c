@@ -169,21 +169,6 @@ static bool subalgebra(const nh_algebra *g, size_t count, const size_t *subset)
     return true;
 }
 
-size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, const nh_options *options,
-                           size_t *index)
-{
-    (void)options;
-    const nh_algebra *g = &group->action.algebra;
-    size_t n = 0;
-    for (size_t a = 0; a < g->d; a++) {
-        bool good = true;
-        for (size_t i = 0; i < count; i++)
-            good &= subset[i] != a && inside(g->d, g->c + (a * g->d + subset[i]) * g->d, count, subset);
-        if (good) index[n++] = a;
-    }
-    return n;
-}
-
 /* How many of the subset's generators move only coordinates that the system calls dependent. */
 static size_t along_dependents(const nh_group *g, size_t count, const size_t *subset)
 {
@@ -294,14 +279,14 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
 {
     enum { most_trials = 20000 };
     size_t d = g->action.d, f = g->kinetic->f, trials = 0;
-    size_t *subset = nh_alloc_array(2 * (d + f) + 2, sizeof *subset), *rest = subset + d + f + 1;
-    double *on = on_constraints(&g->action);
+    size_t *subset = nh_alloc_array(d + f + 1, sizeof *subset);
+    double *on = on_constraints(&g->action), *rest = nh_alloc_array(d * d + 1, sizeof *rest);
     merit best = {0};
     bool found = false;
     for (size_t i = 0; i < f && i <= d; i++) subset[i] = i;
     if (f > 0 && f <= d && g->action.closes) do {
             if (!subalgebra(&g->action.algebra, f, subset)) continue;
-            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest),
+            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, rest),
                        interacting(&g->action.algebra, f, subset), local_ones(&g->action, f, subset),
                        transversality(&g->action, on, subset)};
             if (m.transversality <= options->transversal || (found && !better(m, best))) continue;
@@ -310,6 +295,7 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
             memcpy(index, subset, f * sizeof *index);
         } while (++trials < most_trials && next_subset(d, f, subset));
     nh_free(subset);
+    nh_free(rest);
     nh_free(on);
     return found;
 }

@@ -6,6 +6,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "reduction/group.h"
 #include "reduction/section.h"
 #include "reduction/subspace.h"
 
@@ -313,6 +314,37 @@ static void conditions(nh_second *s)
         nh_free(U);
         s->invariance = fmax(s->invariance, lie_of_U(f, zeta) / size);
     }
+}
+
+size_t nh_second_free(const nh_chaplygin *f, size_t d, nh_ex *field, const nh_options *options)
+{
+    nh_dag *dag = f->dag;
+    size_t m = f->slice->m, n = d;
+    const nh_kinetic *hat = hat_system(f);
+    nh_generator *g = nh_alloc_array(d + 1, sizeof *g);
+    nh_ex *component = nh_alloc_array(f->n + d * m + 1, sizeof *component), *sum = component + f->n;
+    double *t = nh_alloc_array(d * d + 1, sizeof *t);
+    bool good = true;
+    for (size_t b = 0; b < d && good; b++) {
+        good = descend(f, field + b * m, component);
+        if (good) nh_generator_init(&g[b], hat, NULL, component, options);
+    }
+    if (good) {
+        nh_group *group = nh_group_of(hat, d, g, options);
+        n = nh_group_free_basis(group, options, t);
+        nh_group_free(group);
+        for (size_t i = 0; i < n * m; i++) {
+            sum[i] = nh_int(dag, 0);
+            for (size_t b = 0; b < d; b++)
+                if (t[b + i / m * d] != 0)
+                    sum[i] = plus(dag, sum[i], nh_real(dag, t[b + i / m * d]), field[b * m + i % m]);
+        }
+        memcpy(field, sum, n * m * sizeof *field);
+    }
+    nh_free(t);
+    nh_free(component);
+    nh_free(g);
+    return n;
 }
 
 bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *field, const nh_options *options,
