@@ -31,6 +31,7 @@ typedef struct {
 #define SPHERE "(a'^2 + sin(a)^2*b'^2)/2"
 
 #define SIX "(a'^2 + b'^2 + c'^2 + d'^2 + e'^2 + f'^2)/2"
+#define RING5 "(a'^2 + b'^2 + c'^2 + d'^2 + e'^2)/2 - ((a - b)^2 + (b - c)^2 + (c - d)^2 + (d - e)^2 + (e - a)^2)/2"
 /* in the plane, of masses 1, 2, 3, 4: the centre of mass, and all about it, may be turned each for itself */
 #define PAIR(x, y, u, w) "((" x " - " u ")^2 + (" y " - " w ")^2)^2"
 #define FOUR_BODIES \
@@ -122,6 +123,14 @@ static const known table[] = {
     {"a b c d e f g", SIX " + g'^2/2 - a^4 - b^4 - c^4 - d^4 - e^4 - f^4 - g^4", NULL, "trivial", 0, 0, UNTESTED, false, NULL},
     {"a b c d e f g h", SIX " + g'^2/2 + h'^2/2 - a^2 - b^2 - 2*c^2 - 2*d^2 - 3*e^2 - 3*f^2 - 4*g^2 - 4*h^2", NULL, "SO(2)^4", 4, 4, UNTESTED, false, NULL},
     {"x y u w p q r s", FOUR_BODIES, NULL, "SE(2) x SO(2)", 4, 4, UNTESTED, false, NULL},
+    /* circles that are no generator's: modes that turn each for itself at rates in the ratio of the golden section, .. */
+    {"a b c d e", RING5, NULL, "SO(2)^2 x R", 3, 3, UNTESTED, false, NULL},
+    {"a b c d e", RING5 " - (a^2 + b^2 + c^2 + d^2 + e^2)/7", NULL, "SO(2)^2", 2, 2, UNTESTED, false, NULL},
+    {"a b c d", "(a'^2 + b'^2 + c'^2 + d'^2)/2 - ((a - b)^2 + (b - c)^2 + (c - d)^2 + (d - a)^2)/2", NULL, "SO(2) x R", 2, 2, UNTESTED, false, NULL},
+    {"x y u w", POINT2 " + (u'^2 + w'^2)/2 - (x + u)^2 - (y + w)^2 - 3*(x - u)^2 - 3*(y - w)^2", NULL, "SO(2)^2", 2, 2, UNTESTED, false, NULL},
+    {"x y u w", POINT2 " + (u'^2 + w'^2)/2 - (x + u)^2 - (y + w)^2", NULL, "SE(2) x SO(2)", 4, 4, UNTESTED, false, NULL},
+    {"x y z", POINT3 " - (x^2 + y^2)/2", NULL, "SO(2) x R", 2, 2, UNTESTED, false, NULL},
+    {"x y z", POINT3 " - (x - z)^2 - (y - 2*z)^2", NULL, "R", 1, 1, UNTESTED, false, NULL},
     /* slices at poles of the coordinates */
     {"a:angle b:angle", SPHERE, "domain: {a: [0.4, 2.6]}", "SO(2)", 1, 1, UNTESTED, false, "a=cos(b), b=-cos(a)*sin(b)/sin(a)"},
     {"a:angle b:angle", SPHERE, "domain: {a: [0.4, 2.6]}", "SO(2)", 1, 1, UNTESTED, false, "a=sin(b), b=cos(a)*cos(b)/sin(a)"},

@@ -4,33 +4,38 @@
 #include <string.h>
 
 #include "reduction/subspace.h"
+#include "reduction/torus.h"
 
 /* ---- circles ---- */
 
-/* The number of circles: of the generators and one-dimensional pieces that are central and have a closed flow, those
- * that are independent modulo [g,g]. */
+/* The number of circles: of the generators, one-dimensional pieces and combinations of these that are central and have
+ * a closed flow, those that are independent modulo [g,g]. */
 static size_t circles(const nh_group *g, const nh_options *options)
 {
     const nh_algebra *c = &g->action.algebra;
-    size_t d = c->d, count = 0, rank;
-    double *all = nh_alloc_array(4 * d * d + d + 1, sizeof *all), *d1 = all + d * d, *central = d1 + d * d;
+    size_t d = c->d, count = 0, rank, lines = 0;
+    double *all = nh_alloc_array(7 * d * d + 1, sizeof *all), *d1 = all + d * d, *line = d1 + d * d,
+           *central = line + d * d;
     nh_flows *flows = nh_flows_create(&g->action);
     for (size_t i = 0; i < d * d; i++) all[i] = i % (d + 1) == 0;
     size_t n1 = nh_algebra_brackets(c, d, all, d, all, options->group, d1);
-    for (size_t a = 0; a < d; a++) {
-        bool commutes = true;
-        for (size_t i = 0; i < d * d; i++) commutes &= c->c[a * d * d + i] == 0;
-        if (commutes && nh_flows_closed(flows, all + a * d))
-            memcpy(central + count++ * d, all + a * d, d * sizeof *central);
-    }
     for (size_t i = 0; i < g->report.pieces; i++) {
-        double *line = central + count * d, size = nh_largest(d, g->report.piece[i].basis);
+        double size = nh_largest(d, g->report.piece[i].basis);
+        if (g->report.piece[i].kind != NH_R) continue;
         /* of size one, because turns of 2 pi are tried */
-        for (size_t a = 0; a < d; a++) line[a] = g->report.piece[i].basis[a] / (size > 0 ? size : 1);
-        count += g->report.piece[i].kind == NH_R && nh_flows_closed(flows, line);
+        for (size_t a = 0; a < d; a++) line[a + lines * d] = g->report.piece[i].basis[a] / (size > 0 ? size : 1);
+        lines++;
     }
-    nh_project_off(d, count, central, n1, d1);
-    rank = nh_span(d, count, central, sqrt(options->group), all);
+    memcpy(central, line, lines * d * sizeof *line);
+    count = lines + nh_torus_directions(&g->action, lines, line, central + lines * d);
+    for (size_t a = 0; a < d; a++)
+        if (nh_largest(d * d, c->c + a * d * d) == 0) memcpy(central + count++ * d, all + a * d, d * sizeof *central);
+    size_t closed = 0;
+    for (size_t i = 0; i < count && (i != lines || closed < lines); i++)
+        if (nh_flows_closed(flows, central + i * d))
+            memmove(central + closed++ * d, central + i * d, d * sizeof *central);
+    nh_project_off(d, closed, central, n1, d1);
+    rank = nh_span(d, closed, central, sqrt(options->group), all);
     nh_flows_free(flows);
     nh_free(all);
     return rank;
