@@ -216,6 +216,32 @@ Test(reduce_table, a_free_subgroup_of_combinations)
     }
 }
 
+/* A force along a field, however small, conserves no momentum of it: condition (ii) of a second stage, and momenta of
+ * systems that are reduced directly. */
+Test(reduce_table, small_forces_conserve_nothing)
+{
+    static const struct {
+        known system;
+        size_t stages, momenta;
+    } known_ones[] = {
+        {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x' + y^2*u'\"]", "", 0, 0, UNTESTED, false, NULL}, 2, 0},
+        {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x' + 1e-9*y^2*u'\"]", "", 0, 0, UNTESTED, false, NULL}, 2, 0},
+        {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x' + 1e-12*y^2*u'\"]", "", 0, 0, UNTESTED, false, NULL}, 2, 0},
+        /* here that of d/du - d/dx/10^9 is conserved */
+        {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x' + 1e-9*y*u'\"]", "", 0, 0, UNTESTED, false, NULL}, 3, SIZE_MAX},
+        {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x'\"]", "", 0, 0, UNTESTED, false, NULL}, 3, 1},
+        {{"x y", POINT2 " + (x'^2 + y'^2)^2/9", "forces: [\"x = -x'/5\"]", "", 0, 0, UNTESTED, false, NULL}, 1, 1},
+        {{"x y", POINT2 " + (x'^2 + y'^2)^2/9", "forces: [\"x = -1e-9*x'\"]", "", 0, 0, UNTESTED, false, NULL}, 1, 1},
+        {{"x y", POINT2 " + (x'^2 + y'^2)^2/9", "forces: [\"x = -1e-9*x'\", \"y = -1e-9*y'*cos(t)\"]", "", 0, 0, UNTESTED, false, NULL}, 1, 0},
+    };
+    for (size_t i = 0; i < sizeof known_ones / sizeof *known_ones; i++) {
+        nh_reduction *r = reduced(&known_ones[i].system);
+        cr_expect_eq(r->stages, known_ones[i].stages, "%zu: %zu stages", i, r->stages);
+        cr_expect(r->momenta.count == known_ones[i].momenta || known_ones[i].momenta == SIZE_MAX, "%zu: %zu momenta", i, r->momenta.count);
+        nh_reduction_free(r);
+    }
+}
+
 /* What is the momentum of a symmetry is called that, and what others and constraints determine is not listed: a group
  * that is a part of the whole, generators whose fields are dependent on leaves, symmetries along which reactions do no
  * work. */
