@@ -228,7 +228,7 @@ Test(reduce_table, small_forces_conserve_nothing)
         {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x' + 1e-9*y^2*u'\"]", "", 0, 0, UNTESTED, false, NULL}, 2, 0},
         {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x' + 1e-12*y^2*u'\"]", "", 0, 0, UNTESTED, false, NULL}, 2, 0},
         /* here that of d/du - d/dx/10^9 is conserved */
-        {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x' + 1e-9*y*u'\"]", "", 0, 0, UNTESTED, false, NULL}, 3, SIZE_MAX},
+        {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x' + 1e-9*y*u'\"]", "", 0, 0, UNTESTED, false, NULL}, 3, 1},
         {{"x y z u", POINT3 " + u'^2/2", "constraints: [\"z' = y*x'\"]", "", 0, 0, UNTESTED, false, NULL}, 3, 1},
         {{"x y", POINT2 " + (x'^2 + y'^2)^2/9", "forces: [\"x = -x'/5\"]", "", 0, 0, UNTESTED, false, NULL}, 1, 1},
         {{"x y", POINT2 " + (x'^2 + y'^2)^2/9", "forces: [\"x = -1e-9*x'\"]", "", 0, 0, UNTESTED, false, NULL}, 1, 1},
@@ -237,7 +237,7 @@ Test(reduce_table, small_forces_conserve_nothing)
     for (size_t i = 0; i < sizeof known_ones / sizeof *known_ones; i++) {
         nh_reduction *r = reduced(&known_ones[i].system);
         cr_expect_eq(r->stages, known_ones[i].stages, "%zu: %zu stages", i, r->stages);
-        cr_expect(r->momenta.count == known_ones[i].momenta || known_ones[i].momenta == SIZE_MAX, "%zu: %zu momenta", i, r->momenta.count);
+        cr_expect_eq(r->momenta.count, known_ones[i].momenta, "%zu: %zu momenta", i, r->momenta.count);
         nh_reduction_free(r);
     }
 }

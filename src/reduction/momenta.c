@@ -359,19 +359,21 @@ static nh_ex general_conditions(const nh_action *g, size_t a, const nh_ex *mark)
 
 nh_proof nh_momenta_horizontal(const nh_action *g, const double *c, bool offset, const nh_options *options, nh_ex *out)
 {
+    static const double rounding = 1e-14;
     const nh_kinetic *k = g->kinetic;
     nh_dag *d = k->dag;
     size_t n = g->d + offset;
     nh_ex *e = nh_alloc_array(2 * n + k->f + 1, sizeof *e), *exact = e + n, *mark = exact + n;
     double *v = nh_alloc_array(n + 1, sizeof *v);
     nh_section_marks(d, k->f + 1, mark);
-    for (size_t a = 0; a < g->d; a++) {
-        e[a] = general_conditions(g, a, mark);
-        v[a] = fabs(c[a]) <= options->same ? 0 : c[a];
-    }
+    for (size_t a = 0; a < g->d; a++) e[a] = general_conditions(g, a, mark);
     if (offset) e[g->d] = nh_section_marked(d, k->f, mark, k->b);
     if (offset) v[g->d] = 1;
-    nh_proof proof = nh_section_coefficients(k, n, e, v, offset ? g->d : nh_section_pivot(n, v), options, exact);
+    nh_proof proof = {0};
+    for (int noisy = 0; noisy < 2 && !proof.proved; noisy++) { /* small coefficients may be rounding errors */
+        for (size_t a = 0; a < g->d; a++) v[a] = fabs(c[a]) <= (noisy ? options->same : rounding) ? 0 : c[a];
+        proof = nh_section_coefficients(k, n, e, v, offset ? g->d : nh_section_pivot(n, v), options, exact);
+    }
     memcpy(out, exact, g->d * sizeof *out);
     nh_free(v);
     nh_free(e);
@@ -390,22 +392,44 @@ static nh_ex energy_of(const nh_kinetic *k)
     return E;
 }
 
-/* Only proved ones are taken: for a system of this kind there is no other test. */
-static void find_general(nh_momenta *out, const nh_action *g, const nh_options *options)
+/* The momenta of horizontal symmetries, of which only proved ones are taken; room for `more` others. */
+static void find_horizontal(nh_momenta *out, const nh_action *g, size_t more, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
-    nh_dag *d = k->dag;
-    double *c = nh_alloc_array(g->d * g->d + g->d + 1, sizeof *c);
+    double *c = nh_alloc_array(g->d * g->d + 1, sizeof *c);
     size_t n = nh_action_horizontal(g, options, c);
-    out->momentum = nh_arena_alloc(k->arena, (n + 2) * sizeof *out->momentum);
+    *out = (nh_momenta){.momentum = nh_arena_alloc(k->arena, (n + more + 1) * sizeof *out->momentum)};
     for (size_t j = 0; j < n; j++) {
         nh_momentum *p = &out->momentum[out->count];
         *p = (nh_momentum){.horizontal = true, .f = nh_arena_alloc(k->arena, (g->d + 1) * sizeof *p->f)};
         p->proof = nh_momenta_horizontal(g, c + j * g->d, false, options, p->f);
         fill_general(g, p);
-        p->value = nh_simplify(d, p->value);
+        p->value = nh_simplify(k->dag, p->value);
         out->count += p->proof.proved;
     }
+    nh_free(c);
+}
+
+/* Horizontal symmetries with coefficients that are small beside others are lost in the fit. */
+static void complete_horizontal(nh_momenta *found, const nh_action *g, const nh_options *options)
+{
+    nh_momenta all;
+    size_t horizontal = 0;
+    for (size_t i = 0; i < found->count; i++)
+        horizontal += found->momentum[i].horizontal && found->momentum[i].proof.proved;
+    find_horizontal(&all, g, found->count, options);
+    if (all.count <= horizontal) return;
+    for (size_t i = 0; i < found->count; i++)
+        if (!found->momentum[i].horizontal) all.momentum[all.count++] = found->momentum[i];
+    *found = all;
+}
+
+static void find_general(nh_momenta *out, const nh_action *g, const nh_options *options)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *d = k->dag;
+    double *c = nh_alloc_array(g->d + 1, sizeof *c);
+    find_horizontal(out, g, 1, options);
     if (!k->linear && !k->forced && nh_action_moving(g, c)) {
         nh_momentum *p = &out->momentum[out->count];
         *p = (nh_momentum){.moving = true, .f = nh_arena_alloc(k->arena, (g->d + 1) * sizeof *p->f)};
@@ -442,5 +466,6 @@ bool nh_momenta_find(nh_momenta *out, const nh_action *g, const nh_options *opti
         nh_relative_clear(&s.rows);
         nh_library_clear(&s.l);
     }
+    if (good && k->f) complete_horizontal(out, g, options);
     return good;
 }
