@@ -45,6 +45,11 @@ static const refusal refusals[] = {
     {"vertical_disk", "--chain", "1, 2", 2, {"must name every generator of the group once"}},
     /* an initial time: of a system that depends on the time it would be another motion */
     {"sleigh", "--initial", "t=2, omega=1", 2, {"--initial: reduce computes motions from t = 0 on, not from t = 2", "leave t out"}},
+    /* states from which no motion starts: why, and what to do */
+    {"kepler", "--initial", "x=0, y=0, z=0, x'=1", 4, {"no motion starts from this state: x = y = z = 0: x^2 + y^2 + z^2 = 0", "hint: start from other values"}},
+    {"euler_disk", "--initial", "theta=0", 4, {"theta = 0: the mass matrix is singular, without inertia in", "hint: where `theta` is an Euler angle, or that of a pole, the coordinates are singular, not the motion"}},
+    {"euler_top", "--initial", "h=0, h'=1", 4, {"h = 0: the mass matrix is singular, without inertia in p, s", "use other angles"}},
+    {"calogero_moser", "--initial", "x=0, y=0", 4, {"x = y = 0: x - y = 0"}},
     /* not a group at all */
     {"sleigh", "--group", "", 2, {"give vector fields or numbers of generators"}},
     {"crane", "--group", "1, 7", 2, {"there is no generator 7; the group has 6"}},

@@ -172,3 +172,20 @@ Test(measure_conditions, positive_values, PLAIN_ONLY)
         reduced_clear(&s);
     }
 }
+
+/* Without the mass m there is no kinetic energy of y: m = 0 is no way to a measure, and k = 0 contains "k = 0 and k + 1 = 0". */
+Test(measure_conditions, zeros_that_the_system_excludes, PLAIN_ONLY)
+{
+    static const struct {
+        const char *energy, *ways;
+    } cases[] = {{"x'^2 + m*(1 + x^2)*y'^2 + z'^2", "[[[\"k\"],[\"k - 1\"]]]"}, {"x'^2 + (1 + m*x^2)*y'^2 + z'^2", "[[[\"k\"],[\"m*k\",\"k + 1\"],[\"k - 1\"]]]"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        snprintf(text, sizeof text, "name: heavy\nparameters: {m: 1.3, k: 0.4}\ncoordinates: [x, y, z]\nlagrangian: (%s)/2\nconstraints: [\"z' = x*y' + k*y*x'\"]\n", cases[i].energy);
+        reduced_sheet s = reduced_from("own.yaml", text, 0, NULL, " --group z=1", 0);
+        char *ways = cJSON_PrintUnformatted(oracle_get(oracle_get(s.stage, "measure"), "measure_where"));
+        cr_expect_str_eq(ways, cases[i].ways);
+        free(ways);
+        reduced_clear(&s);
+    }
+}

@@ -325,12 +325,12 @@ static const cJSON *momentum(const cJSON *root, size_t i) { return cJSON_GetArra
 
 Test(parameters, gauge_momenta_have_parameters_whatever_the_values, PLAIN_ONLY)
 {
-    static const char *const line[] = {"reduce vertical_disk --json -", "reduce vertical_disk --json - --set r=0.6173", "reduce vertical_disk --json - --set r=2 --set J=3"};
+    static const char *const line[] = {"reduce routh_sphere --json -", "reduce routh_sphere --json - --set r=0.6173", "reduce routh_sphere --json - --set r=2 --set C=3"};
     for (size_t i = 0; i < 3; i++) {
         cJSON *root = answer(line[i]);
-        const cJSON *p = momentum(root, 1);
-        cr_expect_str_eq(text_of(p, "expression"), "J*h'/r + m*(y'*sin(p) + x'*cos(p))", "%s", line[i]);
-        cr_expect_str_eq(text_of(cJSON_GetObjectItemCaseSensitive(p, "field"), "h"), "1/r");
+        const cJSON *p = momentum(root, 0);
+        cr_expect_str_eq(text_of(p, "expression"), "(A*r*p' + C*l*s' + (C*(r*(s' + p'*cos(h)) + l*p') - A*r*p'*cos(h))*cos(h))/(r*l)", "%s", line[i]);
+        cr_expect_str_eq(text_of(cJSON_GetObjectItemCaseSensitive(p, "field"), "s"), "1/r");
         cr_expect_str_eq(text_of(p, "holds"), "all parameters");
         cJSON_Delete(root);
     }

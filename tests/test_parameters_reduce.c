@@ -193,14 +193,14 @@ Test(parameters_reduce, reductions_are_the_same_letter_for_letter, PLAIN_ONLY)
     sample(name, sizeof name / sizeof *name, false);
 }
 
-/* There is no 1/r for r = 0; for c = 0 the file's equations of motion are not finite; for g = 0 there are other generators, whose combinations the file's are. */
+/* For c = 0 the file's equations of motion are not finite; for r = 0 and g = 0 there are other generators, whose combinations the file's are. */
 Test(parameters_reduce, what_a_special_value_changes_is_told_apart, PLAIN_ONLY)
 {
     static const struct {
         const char *path, *name;
         formula_fate fate;
         bool finite;
-    } of[] = {{"systems/rolling_ball.yaml", "r", FATE_NOTHING, true}, {"systems/two_wheel_carriage.yaml", "c", FATE_NOTHING, false},
+    } of[] = {{"systems/rolling_ball.yaml", "r", FATE_FUNCTION, true}, {"systems/two_wheel_carriage.yaml", "c", FATE_NOTHING, false},
               {"systems/perpendicular_velocities.yaml", "g", FATE_FUNCTION, true}};
     nh_options options;
     nh_options_default(&options);

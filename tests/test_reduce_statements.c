@@ -383,3 +383,29 @@ Test(reduce_statements, symmetries_on_each_side_of_a_wall)
         remove(path);
     }
 }
+
+/* Where symmetries cannot be counted the list may be incomplete, and the reason is told; where they are, or the user named the fields, nothing is. */
+Test(reduce_statements, what_is_not_counted_may_be_incomplete)
+{
+    static const struct {
+        const char *rest, *why;
+    } cases[] = {
+        {"lagrangian: (x'^2 + y'^2)/2 - (1 + cos(t)/5)*(x^2 + y^2)\n", "Not counted: time occurs in the Lagrangian or in a constraint; there may be more symmetries than the search for closed forms found"},
+        {"lagrangian: (x'^2 + y'^2)/2\nforces: [\"x = -x*cos(t)\", \"y = -y*cos(t)\"]\n", "Not counted: time occurs in a force; "},
+        {"lagrangian: (x'^2 + y'^2)/2\nconstraints: [\"x'^2 + y'^2 = 1\"]\n", "Not counted: a constraint is not linear in the velocities; "},
+        {"lagrangian: (x'^2 + y'^2)/2 + (x'^2 + y'^2)^2/9\n", "Not counted: the Lagrangian is not quadratic in the velocities; "},
+        {"lagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2\n", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400];
+        snprintf(text, sizeof text, "name: own\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n%s", cases[i].rest);
+        told t = tell(text);
+        if (cases[i].why) {
+            SAYS(TEXT(t), cases[i].why);
+            SAYS(PAGE(t), "there may be more symmetries than the search for closed forms found");
+        } else {
+            IS_SILENT(TEXT(t), "Not counted");
+        }
+        done(&t);
+    }
+}

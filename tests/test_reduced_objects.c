@@ -743,7 +743,7 @@ Test(reduced_objects, cart_with_a_cylindrical_joint, PLAIN_ONLY)
           "  {name: right, mass: 0.2, inertia: [0.01, 0.02, 0.01]}, {name: slider, mass: 0.4, inertia: [0.01, 0.01, 0.02]}]\n"
           "joints:\n  - {type: planar, child: cart, coordinates: [x, y, h]}\n  - {type: revolute, parent: cart, child: left, at: [0, l, 0], axis: y, coordinates: [a]}\n"
           "  - {type: revolute, parent: cart, child: right, at: [0, -l, 0], axis: y, coordinates: [b]}\n  - {type: cylindrical, parent: cart, child: slider, at: [0.3, 0, 0], axis: z, coordinates: [s, p]}\n"
-          "wheels: [{type: rolling, body: left, axle: y, radius: r}, {type: rolling, body: right, axle: y, radius: r}]\n", "", "cl");
+          "wheels: [{type: rolling, body: left, axle: y, radius: r}, {type: rolling, body: right, axle: y, radius: r}]\n", "", "csl");
 }
 
 /* Two blades, one at the end of a rod that gets longer and shorter. */

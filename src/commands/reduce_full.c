@@ -5,6 +5,7 @@
 
 #include "commands/reduce_internal.h"
 #include "motion/automatic.h"
+#include "motion/singular_start.h"
 #include "motion/turns.h"
 
 /* The sizes to which differences are relative.  All angles have one size together, and so have the other coordinates,
@@ -231,7 +232,9 @@ static bool full_motion(nh_reduction_bench *b, nh_error *error)
 
 bool nh_reduction_full_motion(nh_reduction_bench *b, nh_error *error)
 {
-    return (b->r->wanted > 0 && nh_reduction_full_accurate(b)) || full_motion(b, error);
+    if ((b->r->wanted > 0 && nh_reduction_full_accurate(b)) || full_motion(b, error)) return true;
+    if (error && error->code != NH_OK) nh_singular_start_explain(b->r->model, &b->r->initial, error);
+    return false;
 }
 
 /* The same errors made at other places of the motion: their effect at the outputs shows how accurately a motion in all

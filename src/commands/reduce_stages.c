@@ -126,29 +126,36 @@ static bool chaplygin_stage(nh_reduction_bench *b, const nh_action *action, cons
 
 /* ---- the second stage ---- */
 
-/* Combinations of the generators outside the first group that normalise it and satisfy (ii), as fields on Q. */
-static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t rest, const size_t *index, nh_ex *field,
+/* Of n combinations t of the generators (d x n) those that satisfy (ii), and of these a group that acts freely on the
+ * shape space, as fields on Q; used: the generators that occur in the former. */
+static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t n, const double *t, nh_ex *field,
                             bool *used)
 {
+    const nh_action *g = &r->group->action;
     nh_dag *d = r->kinetic->dag;
     size_t m = r->kinetic->m;
-    nh_ex *all = nh_alloc_array(rest * m + rest + 1, sizeof *all), *exact = all + rest * m;
-    double *c = nh_alloc_array(rest * rest + 1, sizeof *c);
-    for (size_t i = 0; i < rest; i++)
-        memcpy(all + i * m, r->group->action.generator[index[i]].component, m * sizeof *all);
-    size_t n = nh_second_candidates(first, rest, all, &r->options, c);
-    for (size_t j = 0; j < n; j++) {
-        nh_second_coefficients(first, rest, all, c + j * rest, &r->options, exact);
-        for (size_t i = 0; i < rest; i++) used[index[i]] |= c[j * rest + i] != 0;
+    nh_ex *all = nh_alloc_array(n * m + n + 1, sizeof *all), *exact = all + n * m;
+    double *c = nh_alloc_array(n * n + 1, sizeof *c);
+    for (size_t i = 0; i < n * m; i++) {
+        all[i] = nh_int(d, 0);
+        for (size_t a = 0; a < g->d; a++)
+            if (t[a + i / m * g->d] != 0)
+                all[i] = nh_add(d, all[i], nh_mul(d, nh_real(d, t[a + i / m * g->d]), g->generator[a].component[i % m]));
+    }
+    size_t count = nh_second_candidates(first, n, all, &r->options, c);
+    for (size_t j = 0; j < count; j++) {
+        nh_second_coefficients(first, n, all, c + j * n, &r->options, exact);
+        for (size_t i = 0; i < n; i++)
+            for (size_t a = 0; a < g->d; a++) used[a] |= c[j * n + i] != 0 && t[a + i * g->d] != 0;
         for (size_t s = 0; s < m; s++) {
             field[j * m + s] = nh_int(d, 0);
-            for (size_t i = 0; i < rest; i++)
+            for (size_t i = 0; i < n; i++)
                 field[j * m + s] = nh_add(d, field[j * m + s], nh_mul(d, exact[i], all[i * m + s]));
         }
     }
     nh_free(all);
     nh_free(c);
-    return n;
+    return count ? nh_second_free(first, count, field, &r->options) : 0;
 }
 
 /* The largest |e_a^s (p_s + ahat_s)| that momenta of this energy can have (Cauchy and Schwarz): sqrt(e_a K e_a) sqrt(p
@@ -299,28 +306,26 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
 {
     nh_reduction *r = b->r;
     const nh_action *g = &r->group->action;
-    size_t f = r->kinetic->f, m = r->kinetic->m, *index = nh_alloc_array(2 * g->d + 2, sizeof *index),
-           *rest = index + g->d + 1;
+    size_t f = r->kinetic->f, m = r->kinetic->m, *index = nh_alloc_array(g->d + f + 1, sizeof *index);
     const nh_chaplygin *first = NULL;
     double *q = nh_alloc_array(2 * m + NH_REACH_MOST * f + 1, sizeof *q), *v = q + m;
     bool good = true;
     memcpy(q, r->initial.q, m * sizeof *q);
     memcpy(v, r->initial.v, m * sizeof *v);
     if (nh_group_chaplygin(r->group, &r->options, index)) {
-        double *t = nh_alloc_array(g->d * f + 1, sizeof *t);
+        double *t = nh_alloc_array(g->d * (g->d + f) + 1, sizeof *t), *rest = t + g->d * f;
         for (size_t i = 0; i < f; i++) t[index[i] + i * g->d] = 1;
         nh_action_sub(&r->action[0], g, f, t, &r->options);
         good = chaplygin_stage(b, &r->action[0], &first, error);
         const nh_chaplygin *shown = good ? r->stage[0].chaplygin : NULL;
         if (good && shown != first && nh_slice_reach(shown->slice, q, v, v + m) < SIZE_MAX) first = shown;
-        nh_free(t);
         size_t n = good && !nh_reduction_late(r, "a second stage")
-                       ? nh_group_normaliser(r->group, f, index, &r->options, rest)
+                       ? nh_group_normaliser(r->group, f, index, rest)
                        : 0;
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         bool *used = nh_alloc_array(2 * g->d + 1, sizeof *used), *normalises = used + g->d;
         for (size_t i = 0; i < f; i++) used[index[i]] = true;
-        for (size_t i = 0; i < n; i++) normalises[rest[i]] = true;
+        for (size_t i = 0; i < n * g->d; i++) normalises[i % g->d] |= rest[i] != 0;
         size_t d = n ? second_fields(r, first, n, rest, field, used) : 0;
         nh_error trouble = {0};
         if (good && !nh_interrupted()) nh_reduction_not_in_second(r, first, used, normalises);
@@ -330,9 +335,10 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
                               "stage 1 is not reduced further: forces of the reduced system act along the further "
                               "symmetries (%zu) that normalise the first group, so no momentum is conserved",
                               n);
-        if (d && d < first->n + 1 && !nh_interrupted() && !second_stage(b, first, shown, q, v, d, field, &trouble))
+        if (d && !nh_interrupted() && !second_stage(b, first, shown, q, v, d, field, &trouble))
             nh_reduction_warn(r, "stage 1 is not reduced further: %s", trouble.what);
         nh_free(field);
+        nh_free(t);
     } else if (g->d) nh_reduction_no_chaplygin(r);
     nh_free(index);
     nh_free(q);
@@ -345,21 +351,22 @@ static bool momentum_levels(nh_reduction_bench *b, nh_error *error)
 {
     nh_reduction *r = b->r;
     const nh_action *g = &r->group->action;
-    size_t m = r->kinetic->m, *index = nh_alloc_array(g->d + m + 1, sizeof *index), *shape = index + g->d,
-           n = nh_group_free_subset(r->group, &r->options, index);
+    size_t m = r->kinetic->m, *shape = nh_alloc_array(m + 1, sizeof *shape);
     nh_slice *whole = nh_arena_alloc(r->arena, sizeof *whole);
     nh_ex *field = nh_alloc_array(g->d * m + 1, sizeof *field);
-    double nothing = 0;
+    double nothing = 0, *all = nh_alloc_array(g->d * g->d + 1, sizeof *all);
+    bool *used = nh_alloc_array(g->d + 1, sizeof *used);
     for (size_t i = 0; i < m; i++) shape[i] = i;
+    for (size_t a = 0; a < g->d; a++) all[a * (g->d + 1)] = 1;
     nh_action_sub(&r->action[0], g, 0, &nothing, &r->options);
     nh_slice_init(whole, &r->action[0], shape, shape, &nothing);
     const nh_chaplygin *first = chaplygin_on(r, whole, error);
-    bool *used = nh_alloc_array(g->d + 1, sizeof *used);
-    size_t d = first && n ? second_fields(r, first, n, index, field, used) : 0;
-    nh_free(used);
+    size_t d = first ? second_fields(r, first, g->d, all, field, used) : 0;
     bool good = d && second_stage(b, first, first, r->initial.q, r->initial.v, d, field, error);
     if (first && !d) nh_fail(error, NH_INPUT, "", "forces act along all fields of the group");
-    nh_free(index);
+    nh_free(used);
+    nh_free(all);
+    nh_free(shape);
     nh_free(field);
     return good;
 }

@@ -81,8 +81,19 @@ static void algebra(nh_pen *p, const nh_reduction *r, const nh_group *g)
                 a->chaplygin ? ": a Chaplygin system" : "");
 }
 
+static const char *not_counted(const nh_kinetic *k)
+{
+    if (!k->quadratic) return "the Lagrangian is not quadratic in the velocities";
+    if (!k->autonomous) return "time occurs in the Lagrangian or in a constraint";
+    if (!k->affine) return "a constraint is not linear in the velocities";
+    return k->invertible ? "time occurs in a force" : "not all velocities have inertia";
+}
+
 static void counted(nh_pen *p, const nh_reduction *r, const nh_group *g)
 {
+    if (!g->jets && !g->given)
+        nh_pen_fact(p, "Not counted", "%s; there may be more symmetries than the search for closed forms found",
+                    not_counted(r->kinetic));
     if (!g->jets) return;
     nh_pen_fact_begin(p, "Counted");
     nh_pen_say(p,

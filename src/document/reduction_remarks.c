@@ -32,16 +32,22 @@ void nh_reduction_conditions(const nh_reduction_stage *s, nh_pen *p)
 
 /* ---- the measure ---- */
 
+/* First what positive parameters can satisfy, then the rest. */
 static void put_ways(const nh_reduction *r, const nh_parameter_zeros *v, nh_pen *p)
 {
-    for (size_t i = 0; i < v->ways; i++) {
-        nh_pen_say(p, "%s", i ? ", or " : "");
-        for (size_t k = 0; k < v->way[i].count; k++) {
-            char *text = nh_formula_text(r->kinetic->dag, v->way[i].polynomial[k], r->options.shown);
-            nh_pen_say(p, "%s<%s> = 0", k ? " and " : "", text);
-            nh_free(text);
+    nh_dag *d = r->kinetic->dag;
+    size_t said = 0, before = 0;
+    for (int positive = 1; positive >= 0; positive--, before = said)
+        for (size_t i = 0; i < v->ways; i++) {
+            if (nh_parameter_zeros_may_be_positive(d, &(nh_parameter_zeros){1, &v->way[i]}) != positive) continue;
+            nh_pen_say(p, "%s", !said ? "" : said == before ? "; and, not for positive values, with " : ", or ");
+            for (size_t k = 0; k < v->way[i].count; k++) {
+                char *text = nh_formula_text(d, v->way[i].polynomial[k], r->options.shown);
+                nh_pen_say(p, "%s<%s> = 0", k ? " and " : "", text);
+                nh_free(text);
+            }
+            said++;
         }
-    }
     if (!v->ways) nh_pen_say(p, "no parameters");
 }
 

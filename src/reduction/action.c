@@ -5,7 +5,6 @@
 
 #include "base/linalg.h"
 #include "graph/diff.h"
-#include "exact/generic_value.h"
 #include "reduction/runge.h"
 #include "reduction/section.h"
 #include "reduction/subspace.h"
@@ -44,17 +43,6 @@ static size_t rank_at(size_t m, size_t n, const double *a, double small, double 
     if (ratio) *ratio = n && s[0] > 0 ? s[n - 1] / s[0] : n ? 0 : 1;
     nh_free(s);
     return rank;
-}
-
-/* The rank of a matrix of expressions, row by row, at almost all places, for the parameters' values (modulo primes). */
-static bool generic_rank(const nh_kinetic *k, size_t rows, size_t columns, const nh_ex *e, size_t *rank)
-{
-    nh_ex *value = nh_alloc_array(rows * columns + 1, sizeof *value);
-    for (size_t i = 0; i < rows * columns; i++) value[i] = nh_model_values(k->model, e[i]);
-    *rank = 0;
-    bool known = !rows || !columns || nh_generic_rank(k->dag, rows, columns, value, rank);
-    nh_free(value);
-    return known;
 }
 
 static double unit_of(double K) { return K > 0 ? sqrt(K) : 1; }
@@ -120,7 +108,7 @@ static void find_ranks(nh_action *g, const nh_options *options)
     memcpy(e + m * d + m * m, k->omega, f * m * sizeof *e);
     nh_kinetic_sample(k, total, e, k->places, z);
     size_t exact;
-    bool known = generic_rank(k, d, m, e, &exact); /* the generators, one a row */
+    bool known = nh_kinetic_rank(k, d, m, e, &exact); /* the generators, one a row */
     double small = known ? rounding : options->group;
     g->free = true;
     g->least = g->transversality = INFINITY;
@@ -142,7 +130,7 @@ static void find_ranks(nh_action *g, const nh_options *options)
         g->orbit = exact;
         nh_ex *on = nh_alloc_array(d * f + 1, sizeof *on);
         on_constraints(g, on);
-        if (k->affine && generic_rank(k, d, f, on, &exact)) joint = n + exact;
+        if (k->affine && nh_kinetic_rank(k, d, f, on, &exact)) joint = n + exact;
         nh_free(on);
     }
     g->dimension_assumption = k->affine && joint == m;

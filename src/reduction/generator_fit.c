@@ -185,13 +185,23 @@ static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_ta
     return finite;
 }
 
+/* A potential gives one row a place: there must be more than fields that leave the metric as it is, m (m + 1)/2 at
+ * most, or than columns. */
+static bool wants_more(const nh_generator_fit *s, size_t places, const nh_relative *r)
+{
+    enum { spare = 10 };
+    size_t fields = s->m * (s->m + 1) / 2, unknown = s->n < fields ? s->n : fields;
+    return places < unknown + spare || nh_relative_wants_more(r);
+}
+
 static void collect(nh_generator_fit *s, nh_relative *out)
 {
     layout y = lay_out(s);
     nh_tape *tape = row_tape(s, y);
     nh_tape_work *work = nh_tape_work_create(tape);
     double *z = nh_alloc_array(y.total, sizeof *z);
-    for (size_t p = 0; p < s->k->places && nh_relative_wants_more(out); p++) place_rows(s, y, tape, work, p, z, out);
+    for (size_t p = 0, used = 0; p < s->k->places && wants_more(s, used, out); p++)
+        used += place_rows(s, y, tape, work, p, z, out);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(z);

@@ -4,33 +4,38 @@
 #include <string.h>
 
 #include "reduction/subspace.h"
+#include "reduction/torus.h"
 
 /* ---- circles ---- */
 
-/* The number of circles: of the generators and one-dimensional pieces that are central and have a closed flow, those
- * that are independent modulo [g,g]. */
+/* The number of circles: of the generators, one-dimensional pieces and combinations of these that are central and have
+ * a closed flow, those that are independent modulo [g,g]. */
 static size_t circles(const nh_group *g, const nh_options *options)
 {
     const nh_algebra *c = &g->action.algebra;
-    size_t d = c->d, count = 0, rank;
-    double *all = nh_alloc_array(4 * d * d + d + 1, sizeof *all), *d1 = all + d * d, *central = d1 + d * d;
+    size_t d = c->d, count = 0, rank, lines = 0;
+    double *all = nh_alloc_array(7 * d * d + 1, sizeof *all), *d1 = all + d * d, *line = d1 + d * d,
+           *central = line + d * d;
     nh_flows *flows = nh_flows_create(&g->action);
     for (size_t i = 0; i < d * d; i++) all[i] = i % (d + 1) == 0;
     size_t n1 = nh_algebra_brackets(c, d, all, d, all, options->group, d1);
-    for (size_t a = 0; a < d; a++) {
-        bool commutes = true;
-        for (size_t i = 0; i < d * d; i++) commutes &= c->c[a * d * d + i] == 0;
-        if (commutes && nh_flows_closed(flows, all + a * d))
-            memcpy(central + count++ * d, all + a * d, d * sizeof *central);
-    }
     for (size_t i = 0; i < g->report.pieces; i++) {
-        double *line = central + count * d, size = nh_largest(d, g->report.piece[i].basis);
+        double size = nh_largest(d, g->report.piece[i].basis);
+        if (g->report.piece[i].kind != NH_R) continue;
         /* of size one, because turns of 2 pi are tried */
-        for (size_t a = 0; a < d; a++) line[a] = g->report.piece[i].basis[a] / (size > 0 ? size : 1);
-        count += g->report.piece[i].kind == NH_R && nh_flows_closed(flows, line);
+        for (size_t a = 0; a < d; a++) line[a + lines * d] = g->report.piece[i].basis[a] / (size > 0 ? size : 1);
+        lines++;
     }
-    nh_project_off(d, count, central, n1, d1);
-    rank = nh_span(d, count, central, sqrt(options->group), all);
+    memcpy(central, line, lines * d * sizeof *line);
+    count = lines + nh_torus_directions(&g->action, lines, line, central + lines * d);
+    for (size_t a = 0; a < d; a++)
+        if (nh_largest(d * d, c->c + a * d * d) == 0) memcpy(central + count++ * d, all + a * d, d * sizeof *central);
+    size_t closed = 0;
+    for (size_t i = 0; i < count && (i != lines || closed < lines); i++)
+        if (nh_flows_closed(flows, central + i * d))
+            memmove(central + closed++ * d, central + i * d, d * sizeof *central);
+    nh_project_off(d, closed, central, n1, d1);
+    rank = nh_span(d, closed, central, sqrt(options->group), all);
     nh_flows_free(flows);
     nh_free(all);
     return rank;
@@ -169,21 +174,6 @@ static bool subalgebra(const nh_algebra *g, size_t count, const size_t *subset)
     return true;
 }
 
-size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, const nh_options *options,
-                           size_t *index)
-{
-    (void)options;
-    const nh_algebra *g = &group->action.algebra;
-    size_t n = 0;
-    for (size_t a = 0; a < g->d; a++) {
-        bool good = true;
-        for (size_t i = 0; i < count; i++)
-            good &= subset[i] != a && inside(g->d, g->c + (a * g->d + subset[i]) * g->d, count, subset);
-        if (good) index[n++] = a;
-    }
-    return n;
-}
-
 /* How many of the subset's generators move only coordinates that the system calls dependent. */
 static size_t along_dependents(const nh_group *g, size_t count, const size_t *subset)
 {
@@ -294,14 +284,14 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
 {
     enum { most_trials = 20000 };
     size_t d = g->action.d, f = g->kinetic->f, trials = 0;
-    size_t *subset = nh_alloc_array(2 * (d + f) + 2, sizeof *subset), *rest = subset + d + f + 1;
-    double *on = on_constraints(&g->action);
+    size_t *subset = nh_alloc_array(d + f + 1, sizeof *subset);
+    double *on = on_constraints(&g->action), *rest = nh_alloc_array(d * d + 1, sizeof *rest);
     merit best = {0};
     bool found = false;
     for (size_t i = 0; i < f && i <= d; i++) subset[i] = i;
     if (f > 0 && f <= d && g->action.closes) do {
             if (!subalgebra(&g->action.algebra, f, subset)) continue;
-            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, options, rest),
+            merit m = {along_dependents(g, f, subset), nh_group_normaliser(g, f, subset, rest),
                        interacting(&g->action.algebra, f, subset), local_ones(&g->action, f, subset),
                        transversality(&g->action, on, subset)};
             if (m.transversality <= options->transversal || (found && !better(m, best))) continue;
@@ -310,6 +300,7 @@ bool nh_group_chaplygin(const nh_group *g, const nh_options *options, size_t *in
             memcpy(index, subset, f * sizeof *index);
         } while (++trials < most_trials && next_subset(d, f, subset));
     nh_free(subset);
+    nh_free(rest);
     nh_free(on);
     return found;
 }

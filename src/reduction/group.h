@@ -49,8 +49,8 @@ size_t nh_group_subalgebras(const nh_group *group, size_t size, double *transver
 size_t nh_group_free_subset(const nh_group *group, const nh_options *options, size_t *index);
 /* The same among combinations, where no subset has the dimension of the orbits: t (d x d) gets the columns. */
 size_t nh_group_free_basis(const nh_group *group, const nh_options *options, double *t);
-/* The generators outside a subset that normalise it ([e, subset] in the span of the subset); returns their number. */
-size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, const nh_options *options,
-                           size_t *index);
+/* Combinations of the generators outside a subset that normalise it ([x, subset] in the span of the subset): t (d x d)
+ * gets the columns; returns their number. */
+size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, double *t);
 
 #endif

@@ -1,4 +1,4 @@
-/* group_free: subgroups that act freely, among combinations of the generators (group.h). */
+/* group_free: subgroups that act freely, and normalisers, among combinations of the generators (group.h). */
 #include <math.h>
 #include <string.h>
 
@@ -10,20 +10,22 @@ typedef struct {
     const nh_group *g;
     const nh_options *options;
     size_t d, best;
-    double *t, *kept; /* d x d: a candidate, the best one so far */
+    double *base, *t, *kept; /* d x d: a candidate, the same with ideals, the best one so far */
 } search;
 
-/* Brings n columns of t to echelon form with short binary fractions; false where there are others: their sum would not
- * be exact. */
-static bool tidy(search *s, size_t n)
+/* Brings n columns of t to echelon form with short binary fractions; false where they are dependent, or there are other
+ * numbers: sums would not be exact. */
+static bool tidy(size_t d, size_t n, double *t)
 {
     static const double small = 1e-8, parts = 16;
-    nh_column_echelon(s->d, n, small, s->t);
-    for (size_t i = 0; i < n * s->d; i++) {
-        double nearest = round(s->t[i] * parts) / parts;
-        if (!(fabs(s->t[i] - nearest) <= small)) return false;
-        s->t[i] = nearest;
+    nh_column_echelon(d, n, small, t);
+    for (size_t i = 0; i < n * d; i++) {
+        double nearest = round(t[i] * parts) / parts;
+        if (!(fabs(t[i] - nearest) <= small)) return false;
+        t[i] = nearest;
     }
+    for (size_t j = 0; j < n; j++)
+        if (nh_largest(d, t + j * d) == 0) return false;
     return true;
 }
 
@@ -31,7 +33,7 @@ static bool tidy(search *s, size_t n)
 static void try_columns(search *s, size_t n)
 {
     nh_action sub;
-    if (n <= s->best || n > s->g->action.orbit || !tidy(s, n)) return;
+    if (n <= s->best || n > s->g->action.orbit || !tidy(s->d, n, s->t)) return;
     nh_action_sub(&sub, &s->g->action, n, s->t, s->options);
     bool good = sub.closes && sub.free;
     for (size_t a = 0; a < n; a++) good &= sub.generator[a].invariant;
@@ -41,18 +43,19 @@ static void try_columns(search *s, size_t n)
     memcpy(s->kept, s->t, s->d * n * sizeof *s->t);
 }
 
-/* Sums of ideals: SO(3) of SO(3) x SO(3) on a sphere of dimension three. */
-static void try_ideals(search *s)
+/* n columns of the base with sums of ideals: SO(3) of SO(3) x SO(3) on a sphere of dimension three. */
+static void with_ideals(search *s, size_t base)
 {
     enum { most = 8 };
     const nh_algebra_report *r = &s->g->report;
     size_t pieces = r->pieces < most ? r->pieces : most;
-    for (size_t set = 1; set < (size_t)1 << pieces; set++) {
-        size_t n = 0;
+    for (size_t set = 0; set < (size_t)1 << pieces; set++) {
+        size_t n = base;
         for (size_t i = 0; i < pieces; i++)
             if (set >> i & 1) n += r->piece[i].dimension;
         if (n <= s->best || n > s->g->action.orbit) continue;
-        n = 0;
+        memcpy(s->t, s->base, base * s->d * sizeof *s->t);
+        n = base;
         for (size_t i = 0; i < pieces; i++)
             if (set >> i & 1) {
                 memcpy(s->t + n * s->d, r->piece[i].basis, r->piece[i].dimension * s->d * sizeof *s->t);
@@ -77,7 +80,7 @@ static void try_stretched(search *s)
         memcpy(copy, ad, d * d * sizeof *ad);
         if (!nh_eigen(d, copy, re, im, NULL)) continue;
         double size = nh_largest(d * d, ad);
-        memcpy(s->t, x, d * sizeof *x);
+        memcpy(s->base, x, d * sizeof *x);
         for (size_t k = 0; k < d; k++) {
             bool again = false;
             for (size_t j = 0; j < k; j++) again |= fabs(re[j] - re[k]) <= small * size;
@@ -86,10 +89,10 @@ static void try_stretched(search *s)
             for (size_t i = 0; i < d; i++) copy[i * (d + 1)] -= re[k];
             size_t more = nh_kernel(d, d, copy, small * size, basis, NULL, NULL);
             if (n + more > d) break;
-            memcpy(s->t + n * d, basis, more * d * sizeof *basis);
+            memcpy(s->base + n * d, basis, more * d * sizeof *basis);
             n += more;
         }
-        if (n > 1) try_columns(s, n);
+        if (n > 1) with_ideals(s, n);
     }
     nh_free(ad);
 }
@@ -97,14 +100,45 @@ static void try_stretched(search *s)
 size_t nh_group_free_basis(const nh_group *g, const nh_options *options, double *t)
 {
     size_t d = g->action.d, *index = nh_alloc_array(d + 1, sizeof *index);
-    search s = {g, options, d, nh_group_free_subset(g, options, index), nh_alloc_array(d * d + 1, sizeof *t), t};
+    double *base = nh_alloc_array(2 * d * d + 1, sizeof *base);
+    search s = {g, options, d, nh_group_free_subset(g, options, index), base, base + d * d, t};
     memset(t, 0, d * d * sizeof *t);
     for (size_t i = 0; i < s.best; i++) t[index[i] + i * d] = 1;
     if (s.best < g->action.orbit && !g->missing && g->action.closes) {
-        try_ideals(&s);
+        with_ideals(&s, 0);
         try_stretched(&s);
     }
-    nh_free(s.t);
+    nh_free(base);
     nh_free(index);
     return s.best;
+}
+
+size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, double *t)
+{
+    static const double small = 1e-9;
+    const nh_algebra *g = &group->action.algebra;
+    size_t d = g->d, n = 0, rows = count * d, *other = nh_alloc_array(d + 1, sizeof *other);
+    for (size_t a = 0; a < d; a++) {
+        bool inside = false;
+        for (size_t i = 0; i < count; i++) inside |= subset[i] == a;
+        if (!inside) other[n++] = a;
+    }
+    double *a = nh_alloc_array(rows * n + n * n + 1, sizeof *a), *kernel = a + rows * n;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < n; k++) /* the part of [x, subset[i]] along other[k] */
+            for (size_t j = 0; j < n; j++)
+                a[i * d + k + j * rows] = g->c[(other[j] * d + subset[i]) * d + other[k]];
+    size_t found = nh_kernel(rows, n, a, small, kernel, NULL, NULL);
+    if (!tidy(n, found, kernel)) { /* those that normalise it by themselves */
+        memset(kernel, 0, n * n * sizeof *kernel);
+        found = 0;
+        for (size_t j = 0; j < n; j++)
+            if (nh_largest(rows, a + j * rows) == 0) kernel[j + n * found++] = 1;
+    }
+    memset(t, 0, d * d * sizeof *t);
+    for (size_t c = 0; c < found; c++)
+        for (size_t j = 0; j < n; j++) t[other[j] + c * d] = kernel[j + c * n];
+    nh_free(a);
+    nh_free(other);
+    return found;
 }

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "graph/diff.h"
 #include "graph/terms.h"
+#include "exact/generic_value.h"
 #include "exact/normal.h"
 #include "system/constraint_samples.h"
 
@@ -392,4 +393,14 @@ bool nh_kinetic_many_valued(const nh_kinetic *k, size_t count, const nh_ex *e)
     nh_tape_free(tape);
     nh_free(q);
     return many;
+}
+
+bool nh_kinetic_rank(const nh_kinetic *k, size_t rows, size_t columns, const nh_ex *e, size_t *rank)
+{
+    nh_ex *value = nh_alloc_array(rows * columns + 1, sizeof *value);
+    for (size_t i = 0; i < rows * columns; i++) value[i] = nh_model_values(k->model, e[i]);
+    *rank = 0;
+    bool known = !rows || !columns || nh_generic_rank(k->dag, rows, columns, value, rank);
+    nh_free(value);
+    return known;
 }

@@ -52,6 +52,9 @@ nh_tape *nh_kinetic_tape(const nh_kinetic *kinetic, size_t count, const nh_ex *o
 nh_ex nh_kinetic_diff(const nh_kinetic *kinetic, nh_ex e, nh_ex x);
 /* Values of expressions in the coordinates at one place. */
 void nh_kinetic_values(const nh_kinetic *kinetic, size_t count, const nh_ex *e, const double *q, double *out);
+/* The rank of a matrix of expressions, row by row, at almost all places, for the parameters' values (modulo primes).
+ * False: not known. */
+bool nh_kinetic_rank(const nh_kinetic *kinetic, size_t rows, size_t columns, const nh_ex *e, size_t *rank);
 /* At the first `places` sample points, count values each. */
 void nh_kinetic_sample(const nh_kinetic *kinetic, size_t count, const nh_ex *e, size_t places, double *out);
 /* The largest modulus of each coordinate at the first `places` sample points, in which fields compare whatever the

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/linalg.h"
 #include "exact/generic_value.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
@@ -179,6 +180,62 @@ static void shorten(work *w, const nh_ex *K, const nh_ex *U)
     nh_free(entry);
 }
 
+/* With this parameter zero: are the entries not finite, or is the rank not full? */
+static bool degenerate(const work *w, nh_ex parameter, size_t rows, size_t columns, const nh_ex *e)
+{
+    const nh_kinetic *k = w->s->kinetic;
+    nh_ex zero = nh_int(w->dag, 0), *own = nh_alloc_array(rows * columns + 1, sizeof *own);
+    double *value = nh_alloc_array(rows * columns + 1, sizeof *value);
+    size_t rank;
+    for (size_t i = 0; i < rows * columns; i++) own[i] = nh_substitute(w->dag, e[i], 1, &parameter, &zero);
+    nh_kinetic_values(k, rows * columns, own, k->place, value);
+    bool bad = !nh_all_finite(rows * columns, value) ||
+               (nh_kinetic_rank(k, rows, columns, own, &rank) && rank < (rows < columns ? rows : columns));
+    nh_free(own);
+    nh_free(value);
+    return bad;
+}
+
+/* A parameter that is zero is no way to a measure where the system ends there: a mass without which the kinetic energy
+ * is degenerate, a length without which the constraints are. */
+static bool excluded(const work *w, const nh_parameter_zeros_way *way)
+{
+    const nh_slice *s = w->s;
+    nh_ex e = way->count == 1 ? way->polynomial[0] : 0;
+    return e && nh_kind_of(w->dag, e) == NH_SYMBOL &&
+           (degenerate(w, e, s->m, s->m, s->K) || degenerate(w, e, s->f, s->m, s->omega));
+}
+
+/* Does b demand all that a demands? */
+static bool contains(const nh_parameter_zeros_way *b, const nh_parameter_zeros_way *a)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < a->count; i++)
+        for (size_t k = 0; k < b->count; k++) found += a->polynomial[i] == b->polynomial[k];
+    return found == a->count;
+}
+
+/* Ways that the system excludes, or that others contain. */
+static void leave_out(work *w)
+{
+    for (size_t i = 0; i < w->out->count; i++) {
+        nh_parameter_zeros *where = &w->out->condition[i].where;
+        size_t kept = 0;
+        bool *keep = nh_alloc_array(where->ways + 1, sizeof *keep);
+        for (size_t k = 0; k < where->ways; k++) {
+            bool use = !excluded(w, &where->way[k]);
+            for (size_t j = 0; j < where->ways && use; j++)
+                use = j == k || !contains(&where->way[k], &where->way[j]) ||
+                      (k < j && where->way[j].count == where->way[k].count);
+            keep[k] = use;
+        }
+        for (size_t k = 0; k < where->ways; k++)
+            if (keep[k]) where->way[kept++] = where->way[k];
+        where->ways = kept;
+        nh_free(keep);
+    }
+}
+
 nh_measure_conditions nh_measure_conditions_of(nh_arena *arena, const nh_slice *s, const nh_ex *K, const nh_ex *U)
 {
     nh_measure_conditions out = {0};
@@ -192,6 +249,7 @@ nh_measure_conditions nh_measure_conditions_of(nh_arena *arena, const nh_slice *
     out.rare = made && !out.known && rarely_closed(&w);
     if (made && !out.known) shorten(&w, K, U);
     if (!out.known) out.count = 0;
+    leave_out(&w);
     out.rare &= !out.known;
     for (size_t i = 0; i < out.count; i++)
         if (!nh_parameter_zeros_may_be_positive(s->dag, &out.condition[i].where)) {

@@ -102,23 +102,30 @@ static void collect(search *s)
 
 /* ---- from vectors to momenta ---- */
 
-static void fill(search *s, nh_momentum *p)
+/* xi . K v */
+static nh_ex momentum_of(const nh_kinetic *k, const nh_ex *xi)
+{
+    nh_dag *d = k->dag;
+    nh_ex J = nh_int(d, 0);
+    for (size_t r = 0; r < k->m; r++)
+        for (size_t q = 0; q < k->m; q++)
+            if (!nh_is_zero(d, xi[r]) && !nh_is_zero(d, k->K[r * k->m + q]))
+                J = nh_add(d, J, nh_mul(d, nh_mul(d, xi[r], k->K[r * k->m + q]), k->v[q]));
+    return J;
+}
+
+static void fill(const search *s, nh_momentum *p)
 {
     const nh_kinetic *k = s->k;
     nh_dag *dag = k->dag;
     p->field = nh_arena_alloc(k->arena, s->m * sizeof *p->field);
-    p->value = nh_int(dag, 0);
     for (size_t q = 0; q < s->m; q++) {
         p->field[q] = nh_int(dag, 0);
         for (size_t a = 0; a < s->d; a++)
             p->field[q] = nh_add(dag, p->field[q], nh_mul(dag, p->f[a], s->g->generator[a].component[q]));
         p->field[q] = nh_simplify(dag, p->field[q]);
     }
-    for (size_t r = 0; r < s->m; r++)
-        for (size_t q = 0; q < s->m; q++)
-            if (!nh_is_zero(dag, p->field[r]) && !nh_is_zero(dag, k->K[r * s->m + q]))
-                p->value = nh_add(dag, p->value, nh_mul(dag, nh_mul(dag, p->field[r], k->K[r * s->m + q]), k->v[q]));
-    p->value = nh_simplify(dag, p->value);
+    p->value = nh_simplify(dag, momentum_of(k, p->field));
 }
 
 /* The conditions on column c, told apart by the marks: omega(b_c e_a), and (b_c)' J_a for v in D, as functions on the
@@ -128,15 +135,14 @@ static nh_ex conditions(const search *s, size_t c, const nh_ex *mark)
     const nh_kinetic *k = s->k;
     nh_dag *d = k->dag;
     const nh_ex *field = s->g->generator[s->l.component[c]].component;
-    nh_ex sum = nh_int(d, 0), J = nh_int(d, 0), along = nh_diff_along(d, s->l.function[c], s->m, k->q, k->v);
+    nh_ex sum = nh_int(d, 0), along = nh_diff_along(d, s->l.function[c], s->m, k->q, k->v);
     for (size_t i = 0; i < s->f; i++)
         for (size_t q = 0; q < s->m; q++)
             sum = nh_add(d, sum,
                          nh_mul(d, mark[i], nh_mul(d, k->omega[i * s->m + q], nh_mul(d, s->l.function[c], field[q]))));
     if (nh_is_zero(d, along)) return sum;
-    for (size_t r = 0; r < s->m; r++)
-        for (size_t q = 0; q < s->m; q++) J = nh_add(d, J, nh_mul(d, nh_mul(d, field[r], k->K[r * s->m + q]), k->v[q]));
-    return nh_add(d, sum, nh_mul(d, mark[s->f], nh_chart_compose(k->model->chart, nh_mul(d, along, J))));
+    nh_ex rate = nh_mul(d, along, momentum_of(k, field));
+    return nh_add(d, sum, nh_mul(d, mark[s->f], nh_chart_compose(k->model->chart, rate)));
 }
 
 /* The coefficients of the vector v; the pivot is its most complex column. */
@@ -168,18 +174,83 @@ static void normalise(const search *s, nh_ex *c)
     for (size_t j = 0; j < s->n; j++) c[j] = nh_neg(s->k->dag, c[j]);
 }
 
-/* A coefficient that is not constant, but constant along D: a known momentum, times a function of the leaf of an
- * integrable distribution. */
-static bool multiple(const search *s, const nh_momentum *p)
+/* ---- which gauge momenta are new ---- */
+
+/* Fields that span D with all its brackets, the directions of the leaves in which motions stay, and their number; X has
+ * room for m + 1 of them (m components each). */
+static size_t leaves(const search *s, nh_ex *X)
+{
+    const nh_kinetic *k = s->k;
+    const nh_chart *chart = k->model->chart;
+    size_t m = s->m, n = chart->n, rank;
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; i < m; i++) X[j * m + i] = nh_diff(k->dag, chart->rho[i], chart->w[j]);
+    for (size_t b = 1; b < n && n < m; b++)
+        for (size_t a = 0; a < b && n < m; a++) {
+            nh_field_bracket(k, X + a * m, X + b * m, X + n * m);
+            if (nh_kinetic_rank(k, n + 1, m, X, &rank) && rank > n) n++;
+        }
+    return n;
+}
+
+/* Is the last of these momenta a function of the others and of what constraints keep constant?  Then the derivatives
+ * along the leaves and by the velocities are dependent. */
+static bool depends(const search *s, const nh_momenta *all)
 {
     const nh_kinetic *k = s->k;
     nh_dag *d = k->dag;
-    for (size_t a = 0; a < s->d; a++) {
-        nh_ex rate = nh_chart_compose(k->model->chart, nh_diff_along(d, p->f[a], s->m, k->q, k->v));
-        if (!nh_is_zero(d, rate) && nh_normal_is_zero(d, rate, (size_t)s->options->proof_terms) != NH_ZERO)
-            return false;
+    const nh_chart *chart = k->model->chart;
+    size_t m = s->m, rows = all->count, with, without;
+    nh_ex *X = nh_alloc_array((m + 1) * m, sizeof *X);
+    size_t n = leaves(s, X), columns = n + chart->n, at = 0;
+    nh_ex *e = nh_alloc_array(rows * columns, sizeof *e);
+    for (size_t i = 0; i < rows; i++) {
+        nh_ex J = nh_chart_compose(chart, all->momentum[i].value);
+        for (size_t j = 0; j < n; j++) e[at++] = nh_diff_along(d, J, m, k->q, X + j * m);
+        for (size_t j = 0; j < chart->n; j++) e[at++] = nh_diff(d, J, chart->w[j]);
     }
-    return !p->horizontal;
+    bool old = nh_kinetic_rank(k, rows, columns, e, &with) &&
+               nh_kinetic_rank(k, rows - 1, columns, e, &without) && with == without;
+    nh_free(e);
+    nh_free(X);
+    return old;
+}
+
+/* Constants c with J = c^a J_a on the submanifold: but for a factor J is the momentum of the symmetry c^a e_a. */
+static bool of_generators(const search *s, nh_momentum *p)
+{
+    const nh_kinetic *k = s->k;
+    nh_dag *dag = k->dag;
+    const nh_chart *chart = k->model->chart;
+    size_t d = s->d, count;
+    nh_ex *J = nh_alloc_array(d + 1, sizeof *J);
+    for (size_t a = 0; a < d; a++) J[a] = nh_chart_compose(chart, momentum_of(k, s->g->generator[a].component));
+    J[d] = nh_chart_compose(chart, p->value);
+    const nh_ex *c = nh_section_relations(k, d + 1, 1, J, s->options, &count), *use = NULL;
+    for (size_t j = 0; j < count && c && !use; j++)
+        if (!nh_is_zero(dag, c[j * (d + 1) + d])) use = c + j * (d + 1);
+    size_t first = 0;
+    while (use && first < d && nh_is_zero(dag, use[first])) first++;
+    use = first < d ? use : NULL;
+    for (size_t a = 0; a < d && use; a++) p->f[a] = nh_simplify(dag, nh_div(dag, use[a], use[first]));
+    if (use) fill(s, p);
+    nh_free(J);
+    return use != NULL;
+}
+
+/* The last momentum is kept if it is new, and called what it is: of a symmetry where it is that of one. */
+static void sort_out(const search *s, nh_momenta *all)
+{
+    nh_generator g;
+    nh_momentum *p = &all->momentum[all->count - 1];
+    if (p->horizontal) return;
+    if (depends(s, all)) {
+        all->count--;
+        return;
+    }
+    nh_generator_init(&g, s->k, NULL, p->field, s->options);
+    p->horizontal = g.invariant && nh_generator_proof(s->k, &g).proved;
+    p->gauge = !p->horizontal && !of_generators(s, p);
 }
 
 static void take(search *s, size_t count, double *v, nh_momenta *out)
@@ -204,9 +275,8 @@ static void take(search *s, size_t count, double *v, nh_momenta *out)
             p->f[a] = nh_add(dag, p->f[a], nh_mul(dag, exact[c], s->l.function[c]));
             p->horizontal &= s->l.complexity[c] == 0;
         }
-        p->gauge = !p->horizontal;
         fill(s, p);
-        out->count -= multiple(s, p);
+        sort_out(s, out);
     }
     nh_free(size);
     nh_free(exact);
@@ -289,19 +359,21 @@ static nh_ex general_conditions(const nh_action *g, size_t a, const nh_ex *mark)
 
 nh_proof nh_momenta_horizontal(const nh_action *g, const double *c, bool offset, const nh_options *options, nh_ex *out)
 {
+    static const double rounding = 1e-14;
     const nh_kinetic *k = g->kinetic;
     nh_dag *d = k->dag;
     size_t n = g->d + offset;
     nh_ex *e = nh_alloc_array(2 * n + k->f + 1, sizeof *e), *exact = e + n, *mark = exact + n;
     double *v = nh_alloc_array(n + 1, sizeof *v);
     nh_section_marks(d, k->f + 1, mark);
-    for (size_t a = 0; a < g->d; a++) {
-        e[a] = general_conditions(g, a, mark);
-        v[a] = fabs(c[a]) <= options->same ? 0 : c[a];
-    }
+    for (size_t a = 0; a < g->d; a++) e[a] = general_conditions(g, a, mark);
     if (offset) e[g->d] = nh_section_marked(d, k->f, mark, k->b);
     if (offset) v[g->d] = 1;
-    nh_proof proof = nh_section_coefficients(k, n, e, v, offset ? g->d : nh_section_pivot(n, v), options, exact);
+    nh_proof proof = {0};
+    for (int noisy = 0; noisy < 2 && !proof.proved; noisy++) { /* small coefficients may be rounding errors */
+        for (size_t a = 0; a < g->d; a++) v[a] = fabs(c[a]) <= (noisy ? options->same : rounding) ? 0 : c[a];
+        proof = nh_section_coefficients(k, n, e, v, offset ? g->d : nh_section_pivot(n, v), options, exact);
+    }
     memcpy(out, exact, g->d * sizeof *out);
     nh_free(v);
     nh_free(e);
@@ -320,22 +392,44 @@ static nh_ex energy_of(const nh_kinetic *k)
     return E;
 }
 
-/* Only proved ones are taken: for a system of this kind there is no other test. */
-static void find_general(nh_momenta *out, const nh_action *g, const nh_options *options)
+/* The momenta of horizontal symmetries, of which only proved ones are taken; room for `more` others. */
+static void find_horizontal(nh_momenta *out, const nh_action *g, size_t more, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
-    nh_dag *d = k->dag;
-    double *c = nh_alloc_array(g->d * g->d + g->d + 1, sizeof *c);
+    double *c = nh_alloc_array(g->d * g->d + 1, sizeof *c);
     size_t n = nh_action_horizontal(g, options, c);
-    out->momentum = nh_arena_alloc(k->arena, (n + 2) * sizeof *out->momentum);
+    *out = (nh_momenta){.momentum = nh_arena_alloc(k->arena, (n + more + 1) * sizeof *out->momentum)};
     for (size_t j = 0; j < n; j++) {
         nh_momentum *p = &out->momentum[out->count];
         *p = (nh_momentum){.horizontal = true, .f = nh_arena_alloc(k->arena, (g->d + 1) * sizeof *p->f)};
         p->proof = nh_momenta_horizontal(g, c + j * g->d, false, options, p->f);
         fill_general(g, p);
-        p->value = nh_simplify(d, p->value);
+        p->value = nh_simplify(k->dag, p->value);
         out->count += p->proof.proved;
     }
+    nh_free(c);
+}
+
+/* Horizontal symmetries with coefficients that are small beside others are lost in the fit. */
+static void complete_horizontal(nh_momenta *found, const nh_action *g, const nh_options *options)
+{
+    nh_momenta all;
+    size_t horizontal = 0;
+    for (size_t i = 0; i < found->count; i++)
+        horizontal += found->momentum[i].horizontal && found->momentum[i].proof.proved;
+    find_horizontal(&all, g, found->count, options);
+    if (all.count <= horizontal) return;
+    for (size_t i = 0; i < found->count; i++)
+        if (!found->momentum[i].horizontal) all.momentum[all.count++] = found->momentum[i];
+    *found = all;
+}
+
+static void find_general(nh_momenta *out, const nh_action *g, const nh_options *options)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *d = k->dag;
+    double *c = nh_alloc_array(g->d + 1, sizeof *c);
+    find_horizontal(out, g, 1, options);
     if (!k->linear && !k->forced && nh_action_moving(g, c)) {
         nh_momentum *p = &out->momentum[out->count];
         *p = (nh_momentum){.moving = true, .f = nh_arena_alloc(k->arena, (g->d + 1) * sizeof *p->f)};
@@ -352,6 +446,7 @@ bool nh_momenta_find(nh_momenta *out, const nh_action *g, const nh_options *opti
     enum { most_columns = 420 };
     const nh_kinetic *k = g->kinetic;
     bool good = true;
+    size_t most = 0;
     *out = (nh_momenta){0};
     if (!k->reducible) {
         if (g->d) find_general(out, g, options);
@@ -366,10 +461,11 @@ bool nh_momenta_find(nh_momenta *out, const nh_action *g, const nh_options *opti
         collect(&s);
         double *vector = nh_relative_null(&s.rows, options, &count, NULL, NULL, error);
         good = vector != NULL;
-        if (good && count > out->count) take(&s, count, vector, &found), *out = found;
+        if (good && count > most) take(&s, count, vector, &found), *out = found, most = count;
         nh_free(vector);
         nh_relative_clear(&s.rows);
         nh_library_clear(&s.l);
     }
+    if (good && k->f) complete_horizontal(out, g, options);
     return good;
 }

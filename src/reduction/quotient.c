@@ -276,11 +276,26 @@ static void add(nh_momenta *out, const nh_model *o, const nh_action *g, const nh
     p->value = nh_simplify(d, p->value);
 }
 
+/* By numbers, where the exact relations are not known. */
+static size_t combinations_at_places(const nh_model *o, const nh_kinetic *k, size_t d, const nh_ex *rate,
+                                     const nh_options *options, double *c)
+{
+    size_t places;
+    double *value = sampled(o, k, d, rate, &places), *rows = nh_alloc_array(places * d + 1, sizeof *rows);
+    for (size_t p = 0; p < places; p++)
+        for (size_t a = 0; a < d; a++) rows[p + a * places] = value[p * d + a];
+    size_t n = places ? nh_kernel(places, d, rows, options->group, c, NULL, NULL) : 0;
+    nh_column_echelon(d, n, options->group, c);
+    nh_free(value);
+    nh_free(rows);
+    return n;
+}
+
 void nh_quotient_momenta(nh_momenta *out, const nh_model *o, const nh_action *g, const nh_options *options)
 {
     const nh_kinetic *k = g->kinetic;
     nh_dag *dag = o->dag;
-    size_t d = g->d, places;
+    size_t d = g->d, n;
     *out = (nh_momenta){.momentum = nh_arena_alloc(k->arena, (d + 1) * sizeof *out->momentum)};
     out->untried = o->chart->implicit;
     if (!d || out->untried) return;
@@ -290,14 +305,9 @@ void nh_quotient_momenta(nh_momenta *out, const nh_model *o, const nh_action *g,
         for (size_t s = 0; s < o->m; s++) J = plus(dag, J, g->generator[a].component[s], o->p[s]);
         rate[a] = nh_model_gamma(o, J);
     }
-    double *value = sampled(o, k, d, rate, &places), *rows = nh_alloc_array(places * d + d * d + 1, sizeof *rows),
-           *c = rows + places * d;
-    for (size_t p = 0; p < places; p++)
-        for (size_t a = 0; a < d; a++) rows[p + a * places] = value[p * d + a];
-    size_t n = places ? nh_kernel(places, d, rows, options->group, c, NULL, NULL) : 0;
-    nh_column_echelon(d, n, options->group, c);
+    double *c = nh_alloc_array(d * d + 1, sizeof *c);
+    if (!nh_section_combinations(k, d, 1, rate, options, c, &n)) n = combinations_at_places(o, k, d, rate, options, c);
     for (size_t j = 0; j < n; j++) add(out, o, g, rate, c + j * d, options);
-    nh_free(value);
-    nh_free(rows);
+    nh_free(c);
     nh_free(rate);
 }

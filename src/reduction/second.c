@@ -6,6 +6,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "reduction/group.h"
 #include "reduction/section.h"
 #include "reduction/subspace.h"
 
@@ -89,6 +90,28 @@ static double largest_U(const nh_chaplygin *f)
  * velocities. */
 enum { speeds = 4 };
 
+/* The forces beside Lhat as functions of (x, x'); the gyroscopic one is U_lij x'^l x'^j. */
+static void forces_of(const nh_chaplygin *f, nh_ex *out)
+{
+    const nh_kinetic *k = f->slice->kinetic;
+    const size_t n = f->n, *shape = f->slice->shape;
+    if (!f->plain) memcpy(out, f->force, n * sizeof *out);
+    for (size_t i = 0; i < n && f->plain; i++) {
+        out[i] = nh_int(f->dag, 0);
+        for (size_t l = 0; l < n; l++)
+            for (size_t j = 0; j < n; j++)
+                out[i] = plus(f->dag, out[i], f->U[(l * n + i) * n + j],
+                              nh_mul(f->dag, k->v[shape[l]], k->v[shape[j]]));
+    }
+}
+
+static nh_ex work_of(const nh_chaplygin *f, const nh_ex *zeta, const nh_ex *force)
+{
+    nh_ex work = nh_int(f->dag, 0);
+    for (size_t i = 0; i < f->n; i++) work = plus(f->dag, work, zeta[i], force[i]);
+    return work;
+}
+
 /* zeta^i force_i at the sample points and several velocities each; *size: the largest force. */
 static double *work_along(const nh_chaplygin *f, const nh_ex *zeta, size_t places, double *size)
 {
@@ -101,9 +124,8 @@ static double *work_along(const nh_chaplygin *f, const nh_ex *zeta, size_t place
            *out = nh_alloc_array(places * speeds + 1, sizeof *out);
     memcpy(in, k->q, m * sizeof *in);
     memcpy(in + m, k->v, m * sizeof *in);
-    memcpy(e, f->force, n * sizeof *e);
-    e[n] = nh_int(f->dag, 0);
-    for (size_t i = 0; i < n; i++) e[n] = plus(f->dag, e[n], zeta[i], f->force[i]);
+    forces_of(f, e);
+    e[n] = work_of(f, zeta, e);
     nh_tape *tape =
         nh_tape_create(k->dag, 2 * m, in, n + 1, e, y->system->parameters, y->parameter, y->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
@@ -122,9 +144,9 @@ static double *work_along(const nh_chaplygin *f, const nh_ex *zeta, size_t place
     return out;
 }
 
-/* The same as nh_second_candidates where there is more than the gyroscopic form. */
-static size_t general_candidates(const nh_chaplygin *f, size_t candidates, const nh_ex *field,
-                                 const nh_options *options, double *c)
+/* By numbers, where the exact relations are not known. */
+static size_t candidates_at_places(const nh_chaplygin *f, size_t candidates, const nh_ex *field,
+                                   const nh_options *options, double *c)
 {
     size_t m = f->slice->m, places = places_of(f), rows = places * speeds;
     nh_ex *zeta = nh_alloc_array(f->n + 1, sizeof *zeta);
@@ -143,49 +165,35 @@ static size_t general_candidates(const nh_chaplygin *f, size_t candidates, const
     return count;
 }
 
+/* The work along each field: condition (ii) is that it vanishes. */
+static void works(const nh_chaplygin *f, size_t candidates, const nh_ex *field, nh_ex *out)
+{
+    nh_ex *zeta = nh_alloc_array(2 * f->n + 1, sizeof *zeta), *force = zeta + f->n;
+    forces_of(f, force);
+    for (size_t b = 0; b < candidates; b++)
+        out[b] = descend(f, field + b * f->slice->m, zeta) ? work_of(f, zeta, force) : nh_int(f->dag, 0);
+    nh_free(zeta);
+}
+
 size_t nh_second_candidates(const nh_chaplygin *f, size_t candidates, const nh_ex *field, const nh_options *options,
                             double *c)
 {
-    if (!f->plain) return general_candidates(f, candidates, field, options, c);
-    size_t n = f->n, m = f->slice->m, places = places_of(f), rows = places * n * n;
-    nh_ex *zeta = nh_alloc_array(n + 1, sizeof *zeta);
-    double *a = nh_alloc_array(rows * candidates + 1, sizeof *a), size = largest_U(f);
-    for (size_t b = 0; b < candidates; b++) {
-        if (!descend(f, field + b * m, zeta)) continue;
-        double *U = interior(f, zeta, places);
-        for (size_t p = 0; p < places; p++)
-            for (size_t l = 0; l < n; l++)
-                for (size_t j = 0; j < n; j++)
-                    a[(p * n + l) * n + j + b * rows] = (U[(p * n + l) * n + j] + U[(p * n + j) * n + l]) / size;
-        nh_free(U);
-    }
-    size_t count = nh_kernel(rows, candidates, a, options->group, c, NULL, NULL);
-    nh_column_echelon(candidates, count, options->group, c);
-    nh_free(a);
-    nh_free(zeta);
+    size_t count;
+    nh_ex *work = nh_alloc_array(candidates + 1, sizeof *work);
+    works(f, candidates, field, work);
+    if (!nh_section_combinations(f->slice->kinetic, candidates, 1, work, options, c, &count))
+        count = candidates_at_places(f, candidates, field, options, c);
+    nh_free(work);
     return count;
 }
 
 void nh_second_coefficients(const nh_chaplygin *f, size_t candidates, const nh_ex *field, const double *c,
                             const nh_options *options, nh_ex *exact)
 {
-    nh_dag *d = f->dag;
-    size_t n = f->n, m = f->slice->m;
-    nh_ex *e = nh_alloc_array(candidates + n + 2 * n * n + 1, sizeof *e), *zeta = e + candidates, *inside = zeta + n,
-          *mark = inside + n * n;
-    nh_section_marks(d, n * n, mark);
-    for (size_t b = 0; b < candidates; b++) {
-        e[b] = exact[b] = nh_real(d, c[b]);
-        if (c[b] == 0 || !f->plain || !descend(f, field + b * m, zeta)) continue;
-        contract(f, zeta, inside);
-        e[b] = nh_int(d, 0);
-        for (size_t l = 0; l < n; l++)
-            for (size_t j = 0; j <= l; j++)
-                e[b] = plus(d, e[b], mark[l * n + j], nh_add(d, inside[l * n + j], inside[j * n + l]));
-    }
-    if (f->plain)
-        nh_section_coefficients(f->slice->kinetic, candidates, e, c, nh_section_pivot(candidates, c), options, exact);
-    nh_free(e);
+    nh_ex *work = nh_alloc_array(candidates + 1, sizeof *work);
+    works(f, candidates, field, work);
+    nh_section_coefficients(f->slice->kinetic, candidates, work, c, nh_section_pivot(candidates, c), options, exact);
+    nh_free(work);
 }
 
 /* The shape space with Khat and V. */
@@ -315,6 +323,37 @@ static void conditions(nh_second *s)
     }
 }
 
+size_t nh_second_free(const nh_chaplygin *f, size_t d, nh_ex *field, const nh_options *options)
+{
+    nh_dag *dag = f->dag;
+    size_t m = f->slice->m, n = d;
+    const nh_kinetic *hat = hat_system(f);
+    nh_generator *g = nh_alloc_array(d + 1, sizeof *g);
+    nh_ex *component = nh_alloc_array(f->n + d * m + 1, sizeof *component), *sum = component + f->n;
+    double *t = nh_alloc_array(d * d + 1, sizeof *t);
+    bool good = true;
+    for (size_t b = 0; b < d && good; b++) {
+        good = descend(f, field + b * m, component);
+        if (good) nh_generator_init(&g[b], hat, NULL, component, options);
+    }
+    if (good) {
+        nh_group *group = nh_group_of(hat, d, g, options);
+        n = nh_group_free_basis(group, options, t);
+        nh_group_free(group);
+        for (size_t i = 0; i < n * m; i++) {
+            sum[i] = nh_int(dag, 0);
+            for (size_t b = 0; b < d; b++)
+                if (t[b + i / m * d] != 0)
+                    sum[i] = plus(dag, sum[i], nh_real(dag, t[b + i / m * d]), field[b * m + i % m]);
+        }
+        memcpy(field, sum, n * m * sizeof *field);
+    }
+    nh_free(t);
+    nh_free(component);
+    nh_free(g);
+    return n;
+}
+
 bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *field, const nh_options *options,
                     nh_error *error)
 {
@@ -335,13 +374,16 @@ bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *
     if (!good) return nh_fail(error, NH_NUMERIC, "", "the second group does not act on the reduced system");
     for (size_t i = 0; i < n; i++) s->magnetic |= !nh_is_zero(f->dag, f->a[i]);
     s->abelian = nh_largest(d * d * d, s->action.algebra.c) == 0;
-    if (s->weak <= options->group && s->invariance <= options->group) return true;
+    double *c = nh_alloc_array(d * d + 1, sizeof *c);
+    bool conserved = nh_second_candidates(f, d, field, options, c) == d;
+    nh_free(c);
+    if (conserved && s->invariance <= options->group) return true;
     nh_fail(
         error, NH_INPUT, "",
-        s->weak > options->group
+        !conserved
             ? "the first stage does not conserve the momentum of the second group (relative residual %.2g)"
             : "the gyroscopic or magnetic form is not invariant under the second group (relative residual %.2g)",
-        fmax(s->weak, s->invariance));
+        conserved ? s->invariance : s->weak);
     return nh_error_hint(error, "a cyclic coordinate of the reduced metric is not sufficient");
 }
 

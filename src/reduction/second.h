@@ -57,6 +57,10 @@ size_t nh_second_candidates(const nh_chaplygin *first, size_t candidates, const 
 void nh_second_coefficients(const nh_chaplygin *first, size_t candidates, const nh_ex *field, const double *c,
                             const nh_options *options, nh_ex *exact);
 
+/* Of the group of these fields (d x m, replaced) a largest one that acts freely on the shape space, among all
+ * combinations; returns its dimension. */
+size_t nh_second_free(const nh_chaplygin *first, size_t d, nh_ex *field, const nh_options *options);
+
 /* Find N on the shape space from fields on Q, and check (i) and (ii).  Call nh_second_equations afterwards. */
 bool nh_second_init(nh_second *second, const nh_chaplygin *first, size_t d, const nh_ex *field,
                     const nh_options *options, nh_error *error);

@@ -98,10 +98,15 @@ nh_ex *nh_section_relations(const nh_kinetic *k, size_t columns, size_t rows, co
                              const nh_options *options, size_t *count)
 {
     const nh_model *o = k->model;
-    nh_ex *e = nh_alloc_array(columns * rows + 2 * k->m + 1, sizeof *e), *variable = e + columns * rows, *found = NULL;
+    const nh_chart *chart = o->chart;
+    nh_ex *e = nh_alloc_array(columns * rows + 2 * k->m + chart->n + 1, sizeof *e), *variable = e + columns * rows,
+          *found = NULL;
+    size_t variables = 2 * k->m;
     memcpy(variable, k->q, k->m * sizeof *e);
     memcpy(variable + k->m, k->v, k->m * sizeof *e);
-    nh_relation_columns q = {k->dag, columns, rows, e, 2 * k->m, variable, 0, o->parameter,
+    for (size_t i = 0; i < chart->n && chart->quasi; i++) variable[variables++] = chart->w[i];
+    if (!k->autonomous) variable[variables++] = o->system->t;
+    nh_relation_columns q = {k->dag, columns, rows, e, variables, variable, 0, o->parameter,
                              (size_t)options->proof_terms};
     for (size_t i = 0; i < columns * rows; i++) e[i] = nh_model_values(o, entry[i]);
     nh_relation_space *all = columns && rows ? nh_relation_space_of(k->arena, &q) : NULL;

@@ -24,8 +24,9 @@ nh_proof nh_section_coefficients(const nh_kinetic *kinetic, size_t n, const nh_e
 size_t nh_section_pivot(size_t n, const double *v);
 
 /* All constants c with sum_j c_j e_ij = 0 identically, for every row i, at the parameters' values: *count of them,
- * `columns` entries each, in the kinetic's arena; numbers are exact.  entry[j * rows + i], functions of positions and
- * velocities.  NULL where this is not known: the formulas have no residues, or relations were not confirmed. */
+ * `columns` entries each, in the kinetic's arena; numbers are exact.  entry[j * rows + i], functions of positions,
+ * velocities (also of the chart), and time.  NULL where this is not known: the formulas have no residues, or relations
+ * were not confirmed. */
 nh_ex *nh_section_relations(const nh_kinetic *kinetic, size_t columns, size_t rows, const nh_ex *entry,
                              const nh_options *options, size_t *count);
 /* The same as doubles into c (columns x count), in reduced echelon form from the first column on; false: not known. */

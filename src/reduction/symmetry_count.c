@@ -8,7 +8,7 @@
 #include "exact/residue_matrix.h"
 #include "reduction/symmetry_rays.h"
 
-enum { canonical_length = 2000, most_points = 400, most_rays = 12, most_nodes = 400000, most_coordinates = 16 };
+enum { canonical_length = 2000, most_points = 400, most_nodes = 400000, most_coordinates = 16 };
 
 enum { OF_METRIC, OF_POTENTIAL, OF_CONSTRAINTS };
 
@@ -293,7 +293,7 @@ static const char *rows_at(nh_count_rays *c, uint64_t seed)
     nh_jet_point_choose(c->point, c->field, seed);
     for (size_t s = 0; s < c->m; s++) c->q0[s] = nh_residue_random(c->field, &c->random);
     for (size_t set = 0; set < NH_COUNT_SETS; set++) c->rows[set].rank = c->before[set] = 0;
-    for (size_t i = 0; i < most_rays && quiet < 2; i++) {
+    while (quiet < 2) {
         if (!ray(c)) return nh_late() ? "the time that is left" : "no regular point was found";
         quiet = settled(c) ? quiet + 1 : 0;
     }
