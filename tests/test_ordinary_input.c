@@ -253,6 +253,7 @@ Test(ordinary_input, numbers_of_options_are_expressions)
         {"--initial theta=90deg --until 2pi --step pi/4", "--initial theta=pi/2 --until 6.283185307179586 --step 0.7853981633974483"},
         {"--initial θ=90°,θ̇=0 --until 1 --step 1/2", "--initial theta=pi/2,theta'=0 --until 1 --step 0.5"},
         {"--initial theta_dot=1 --until 1 --step 1", "--initial theta'=1 --until 1 --step 1"},
+        {"--initial dtheta/dt=1 --until 1 --step 1", "--initial theta'=1 --until 1 --step 1"},
         {"--initial thetadot:1 --until 1 --step 1", "--initial theta'=1 --until 1 --step 1"},
         {"--initial theta=1 --set g=2*pi --until 1 --step 1", "--initial theta=1 --set g=6.283185307179586 --until 1 --step 1"},
         {"--initial theta=1 --set g=sqrt(3) --until 1 --step 1", "--initial theta=1 --set g=1.7320508075688772 --until 1 --step 1"},

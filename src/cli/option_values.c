@@ -240,7 +240,7 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
     case opt_wheel: return each(cli, value, "wheel", add_wheel, error);
     case opt_on: return each(cli, value, "on", add_level, error);
     case opt_base: cli->ask.base = value; return true;
-    case opt_name: cli->ask.name = value; return true;
+    case opt_name: case opt_like: *(code == opt_like ? &cli->like : &cli->ask.name) = value; return true;
     case opt_watch: cli->ask.watch = joined(cli, cli->ask.watch, value); return true;
     case opt_event: cli->ask.event = also(cli, cli->ask.event, value); return true;
     case opt_section: cli->ask.section = value; return true;

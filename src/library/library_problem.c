@@ -96,8 +96,10 @@ static void list_systems(void *argument)
 {
     char **out = argument;
     nh_text text;
+    nh_error none;
     nh_text_init(&text);
-    nh_catalogue_systems(&text);
+    nh_error_clear(&none);
+    nh_catalogue_systems(NULL, &text, &none);
     *out = nh_strdup(nh_text_string(&text));
     nh_text_clear(&text);
 }

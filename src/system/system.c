@@ -296,15 +296,16 @@ long nh_system_coordinate(const nh_system *system, const char *name)
 
 const char *nh_system_state_name(const nh_system *s, const char *name)
 {
-    static const char *const ends[] = {"_dot", "dot"};
+    static const char *const around[][2] = {{"", "_dot"}, {"", "dot"}, {"d", "/dt"}};
     name = nh_deck_spelled(s->arena, name);
     size_t length = strlen(name);
     nh_ex taken;
     if (nh_symbol_find(s->dag, name, &taken) || in_named(s->definitions, s->definition, name, &taken)) return name;
-    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
-        size_t tail = strlen(ends[i]);
-        if (length <= tail || strcmp(name + length - tail, ends[i])) continue;
-        long q = nh_system_coordinate(s, nh_arena_strndup(s->arena, name, length - tail));
+    for (size_t i = 0; i < sizeof around / sizeof *around; i++) {
+        size_t head = strlen(around[i][0]), tail = strlen(around[i][1]);
+        if (length <= head + tail || strncmp(name, around[i][0], head) || strcmp(name + length - tail, around[i][1]))
+            continue;
+        long q = nh_system_coordinate(s, nh_arena_strndup(s->arena, name + head, length - head - tail));
         if (q >= 0) return nh_arena_printf(s->arena, "%s'", s->coordinate[q].name);
     }
     return name;
