@@ -77,7 +77,7 @@ Test(cli, wrong_usage_is_told_with_a_suggestion)
         {"simulate sleigh --method rk8pd,adams", "nhsym: --method takes one integrator, found 2\nhint: `nhsym benchmark` compares several\n"},
         {"benchmark sleigh --over a=1:2 --method rk8pd", "nhsym: --method, and --over as well\nhint: maps compare five methods, which are always the same\n"},
         {"simulate sleigh -o a.csv", "nhsym: -o takes a folder, but `a.csv` is the name of a file\nhint: a file is written by --csv a.csv\n"},
-        {"list -o folder", "nhsym: `nhsym list` does not take --output\nhint: `nhsym help list` lists its options; this one belongs to: analyze verify simulate reduce classify benchmark scan linearize export\n"},
+        {"list -o folder", "nhsym: `nhsym list` does not take --output\nhint: `nhsym help list` lists its options; this one belongs to: analyze verify simulate reduce classify benchmark scan linearize export new\n"},
         {"analyze sleigh --fragment", "nhsym: --fragment needs --tex\nhint: for example: --tex body.tex --fragment\n"},
         {"explain frobnicate", "nhsym: there is no topic `frobnicate`\nhint: `nhsym explain` lists the topics\n"},
         {"explain gapp", "nhsym: there is no topic `gapp`\nhint: did you mean `gap`?\n"},
@@ -156,7 +156,7 @@ Test(cli, a_bad_file_is_shown_where_it_is_bad)
     place p = place_make();
     write_here(&p, "mine.yaml", "name: mine\ncoordinates: [x]\nlagrangian: m*x'^2\n");
     check(&p, "analyze mine.yaml", 3, "",
-          "nhsym: mine.yaml:3:13: unknown name `m`\n  lagrangian: m*x'^2\n              ^\nhint: declare it under parameters, coordinates or definitions\n");
+          "nhsym: mine.yaml:3:13: unknown name `m`\n  lagrangian: m*x'^2\n              ^\nhint: declare it, for instance `parameters: {m: 1}`\n");
     check(&p, "analyze mine.yaml --json -", 3, "", NULL); /* standard output stays clean */
     place_clear(&p);
 }

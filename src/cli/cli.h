@@ -27,7 +27,8 @@ typedef struct {
     const char *svg, *pdf, *csv; /* pictures and tables */
     const char *wrote;           /* names of the folder's files, separated by commas */
     bool fragment;               /* LaTeX without a preamble */
-    const char *folder;          /* for all of them, or NULL */
+    const char *folder;          /* for all of them, or NULL; of `new`: the file */
+    const char *like;            /* of `new`: the system to begin with, or NULL */
     nh_cli_progress progress;
     bool quiet, verbose, colour, help;
     nh_output_set files;         /* output files that are written and not yet in their places */

@@ -22,7 +22,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan linearize", "write the result as one self-contained page") \
     X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan linearize export", "write the result as a LaTeX document")                                 \
     X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "LaTeX without a preamble, to include in another document")                      \
-    X('o',             "output",      required_argument, "DIR",                "analyze verify simulate reduce classify benchmark scan linearize export", "-o: write all files into a folder")                      \
+    X('o',             "output",      required_argument, "DIR",                "analyze verify simulate reduce classify benchmark scan linearize export new", "-o: write all files into a folder; of `new`: the file")                      \
     X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \
     X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
@@ -57,6 +57,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_weak,        "weak",        no_argument,       "",                   "reduce export", "also allow symmetries up to a total derivative")              \
     X(opt_to,          "to",          required_argument, "c|python|sympy|matlab|latex|json", "reduce export", "the language of the exported code") \
     X(opt_input,       "input",       required_argument, "\"u=sin(t)\"",       "simulate export", "parameters that are inputs; repeatable") \
+    X(opt_like,        "like",        required_argument, "SYSTEM|FILE",        "new", "the system to begin with") \
     X(opt_name,        "name",        required_argument, "NAME",               "export", "what names of files and functions begin with") \
     X(opt_tolerance,   "tolerance",   required_argument, "EPS",                "analyze simulate benchmark reduce", "relative tolerance of the motions")                                  \
     X(opt_until,       "until",       required_argument, "T",                  "analyze simulate benchmark reduce", "end time of the motions")                                       \
@@ -127,9 +128,9 @@ const char *nh_cli_command_near(const char *word);
     X(scan,     "SYSTEM|FILE", "numbers over a grid of parameters, and jumps", "nhsym scan sleigh --over k=1:4:61 -o scan") \
     X(linearize, "SYSTEM|FILE", "linear equations at a state, and stability", "nhsym linearize sleigh --at \"v=1\"") \
     X(export,   "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code") \
-    X(list,     "",            "list the available systems", "nhsym list")                                                                                  \
+    X(list,     "[WORD]",      "list the available systems, or those with a word", "nhsym list pendulum")                                                                                  \
     X(show,     "SYSTEM|FILE", "print a system file; a robot description as one", "nhsym show sleigh")                                                                                   \
-    X(new,      "NAME",        "write NAME.yaml, an example system to edit", "nhsym new skate")                                                           \
+    X(new,      "NAME",        "write NAME.yaml, a system to edit", "nhsym new mine --like double_pendulum")                                                           \
     X(explain,  "[TOPIC]",     "define a word of the report", "nhsym explain gap")                                                                 \
     X(version,  "",            "print the version", "nhsym version")                                                                                         \
     X(help,     "[COMMAND]",   "describe a command: options and an example", "nhsym help analyze")

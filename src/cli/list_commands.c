@@ -14,21 +14,15 @@ int nh_cli_version(nh_cli *cli, nh_error *error)
 
 int nh_cli_list(nh_cli *cli, nh_error *error)
 {
+    const char *word = "";
     nh_text text;
-    if (cli->operands) {
-        nh_fail(error, NH_USAGE, "", "`nhsym list` takes no name, found `%s`", cli->operand[0]);
-        return nh_error_hint(error, "`nhsym list | grep %s` shows the systems with this word in their name or title",
-                             cli->operand[0]),
-               NH_USAGE;
-    }
+    for (size_t i = 0; i < cli->operands; i++)
+        word = nh_arena_printf(cli->arena, "%s%s%s", word, i ? " " : "", cli->operand[i]);
     nh_text_init(&text);
-    bool some = nh_catalogue_systems(&text);
+    bool some = nh_catalogue_systems(cli->operands ? word : NULL, &text, error);
     fputs(nh_text_string(&text), stdout);
     nh_text_clear(&text);
-    if (some) return NH_OK;
-    nh_fail(error, NH_INPUT, "", "there are no systems in ./systems, in NHSYM_PATH or installed");
-    nh_error_hint(error, "run nhsym where a folder `systems` is, or set NHSYM_PATH");
-    return NH_INPUT;
+    return some ? NH_OK : (int)error->code;
 }
 
 int nh_cli_show(nh_cli *cli, nh_error *error)

@@ -7,21 +7,58 @@
 #include "cli/cli.h"
 #include "library/catalogue.h"
 
+/* The name of the system: the operand, else that of the file of -o, else that of the system to begin with. */
+static const char *name_of(nh_cli *cli)
+{
+    const char *given = cli->folder ? cli->folder : cli->like, *slash = given ? strrchr(given, '/') : NULL;
+    if (cli->operands == 1) return cli->operand[0];
+    if (!given || cli->operands) return NULL;
+    given = slash ? slash + 1 : given;
+    const char *dot = strrchr(given, '.');
+    return dot ? nh_arena_strndup(cli->arena, given, (size_t)(dot - given)) : given;
+}
+
+/* What the file begins with: a copy of the system of --like or of this name, else an example. */
+static bool text_of(nh_cli *cli, const char *name, nh_text *text, nh_error *error)
+{
+    bool known = name && !cli->like && nh_catalogue_has(name);
+    if (known) cli->like = name;
+    if (name && cli->like) {
+        nh_text example;
+        nh_text_init(&example);
+        bool named = nh_catalogue_pattern(name, &example);
+        nh_text_clear(&example);
+        if (named) return nh_catalogue_copy(cli->like, name, text, error);
+    }
+    if (name && nh_catalogue_pattern(name, text)) return true;
+    if (!name) nh_fail(error, NH_USAGE, "", "`nhsym new` takes one name");
+    else nh_fail(error, NH_USAGE, "", "`%s` is not a name: a name is a letter, then letters, digits and _", name);
+    size_t length = name ? strlen(name) : 0, ending = strlen(".yaml");
+    bool file = length > ending && !strcmp(name + length - ending, ".yaml");
+    const char *shown = file ? nh_arena_strndup(cli->arena, name, length - ending) : "skate";
+    return nh_error_hint(error, "`nhsym new %s` writes %s.yaml", shown, shown);
+}
+
+/* What was written, and systems of this name that it is not. */
+static void tell(const nh_cli *cli, const char *name, const char *path)
+{
+    nh_text similar;
+    nh_text_init(&similar);
+    if (cli->like) printf("wrote %s after the system %s; `nhsym analyze %s` analyses it\n", path, cli->like, path);
+    else printf("wrote %s; `nhsym analyze %s` analyses it\n", path, path);
+    if (!cli->like && strcmp(name, "skate")) nh_catalogue_similar(name, &similar);
+    if (similar.length)
+        printf("it is a skate; systems of this name to begin with by --like: %s\n", nh_text_string(&similar));
+    nh_text_clear(&similar);
+}
+
 int nh_cli_new(nh_cli *cli, nh_error *error)
 {
-    const char *name = cli->operands == 1 ? cli->operand[0] : NULL;
+    const char *name = name_of(cli);
     nh_text text;
     nh_text_init(&text);
-    if (!name || !nh_catalogue_pattern(name, &text)) {
-        if (!name) nh_fail(error, NH_USAGE, "", "`nhsym new` takes one name");
-        else nh_fail(error, NH_USAGE, "", "`%s` is not a name: a name is a letter, then letters, digits and _", name);
-        size_t length = name ? strlen(name) : 0, ending = strlen(".yaml");
-        bool file = length > ending && !strcmp(name + length - ending, ".yaml");
-        const char *shown = file ? nh_arena_strndup(cli->arena, name, length - ending) : "skate";
-        nh_error_hint(error, "`nhsym new %s` writes %s.yaml", shown, shown);
-        return NH_USAGE;
-    }
-    const char *path = nh_arena_printf(cli->arena, "%s.yaml", name);
+    if (!text_of(cli, name, &text, error)) return nh_text_clear(&text), (int)error->code;
+    const char *path = cli->folder ? cli->folder : nh_arena_printf(cli->arena, "%s.yaml", name);
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666); /* never overwrites a file */
     FILE *stream = file < 0 ? NULL : fdopen(file, "w");
     if (!stream) {
@@ -42,6 +79,6 @@ int nh_cli_new(nh_cli *cli, nh_error *error)
         unlink(path);
         return NH_NUMERIC;
     }
-    if (!cli->quiet) printf("wrote %s; `nhsym analyze %s` analyses it\n", path, path);
+    if (!cli->quiet) tell(cli, name, path);
     return NH_OK;
 }

@@ -18,7 +18,11 @@ static bool assignment(nh_cli *cli, const char *text, const char *option, char *
         if (colon && colon != text)
             return nh_error_hint(error, "--%s \"%.*s=%s\"", option, (int)(colon - text), text,
                                  colon + 1 + strspn(colon + 1, " "));
-        return nh_text_to_number(text, &half)
+        const nh_setting *last = cli->ask.settings ? &cli->ask.setting[cli->ask.settings - 1] : NULL;
+        bool number = nh_text_to_number(text, &half);
+        if (number && last && !last->input && !strcmp(option, "set")) /* g=9,81 */
+            return nh_error_hint(error, "decimals stand behind a point: --set %s=%g.%s", last->name, last->value, text);
+        return number
                    ? nh_error_hint(error, "commas stand between values, and decimals behind a point: 0.5")
                    : false;
     }
@@ -66,7 +70,7 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
         cli->ask.setting[cli->ask.settings++] = (nh_setting){.name = name, .input = value};
         return true;
     }
-    if (!nh_text_to_ratio(value, &x)) {
+    if (!nh_request_number(value, &x)) {
         nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
         return nh_error_hint_number(error, value);
     }
@@ -119,7 +123,7 @@ static bool add_option(nh_cli *cli, const char *text, nh_error *error)
 
 static bool positive(const char *text, const char *option, double *out, nh_error *error)
 {
-    if (nh_text_to_number(text, out) && *out > 0) return true;
+    if (nh_request_number(text, out) && *out > 0) return true;
     nh_fail(error, NH_USAGE, "", "--%s needs a positive number, found `%s`", option, text);
     return nh_error_hint_number(error, text);
 }
@@ -236,7 +240,7 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
     case opt_wheel: return each(cli, value, "wheel", add_wheel, error);
     case opt_on: return each(cli, value, "on", add_level, error);
     case opt_base: cli->ask.base = value; return true;
-    case opt_name: cli->ask.name = value; return true;
+    case opt_name: case opt_like: *(code == opt_like ? &cli->like : &cli->ask.name) = value; return true;
     case opt_watch: cli->ask.watch = joined(cli, cli->ask.watch, value); return true;
     case opt_event: cli->ask.event = also(cli, cli->ask.event, value); return true;
     case opt_section: cli->ask.section = value; return true;

@@ -56,6 +56,7 @@ enum {
     opt_chunk,
     opt_input,
     opt_name,
+    opt_like,
     opt_wheel,
     opt_base,
     opt_on,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "commands/robustness_internal.h"
+#include "evaluate/constant_text.h"
 
 enum { most_axes = 2, values_of_one = 10, values_of_two = 6, most_values = 100 };
 static const double decades = 100; /* a range from x to 100 x or more is divided in equal ratios */
@@ -33,13 +34,13 @@ static bool read_axis(nh_arena *arena, const char *text, axis *a, nh_error *erro
     char *end;
     if (!equal || equal == text) return unreadable(text, error);
     *a = (axis){.name = nh_arena_strndup(arena, text, (size_t)(equal - text))};
-    a->low = strtod(equal + 1, &end);
-    if (end == equal + 1 || *end != ':') return unreadable(text, error);
-    const char *high = end + 1;
-    a->high = strtod(high, &end);
-    if (end == high || !isfinite(a->low) || !isfinite(a->high)) return unreadable(text, error);
-    if (!*end) return true;
-    long count = *end == ':' ? strtol(end + 1, &end, 10) : 0;
+    const char *colon = strchr(equal, ':'), *second = colon ? strchr(colon + 1, ':') : NULL;
+    if (!colon || !nh_constant_text(nh_arena_strndup(arena, equal + 1, (size_t)(colon - equal - 1)), &a->low))
+        return unreadable(text, error);
+    size_t length = second ? (size_t)(second - colon - 1) : strlen(colon + 1);
+    if (!nh_constant_text(nh_arena_strndup(arena, colon + 1, length), &a->high)) return unreadable(text, error);
+    if (!second) return true;
+    long count = strtol(second + 1, &end, 10);
     if (*end || count < 1 || count > most_values) return unreadable(text, error);
     a->count = (size_t)count;
     return true;

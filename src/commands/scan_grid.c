@@ -1,10 +1,12 @@
 /* scan_grid: the grid of a scan, with exact values. */
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "commands/scan_internal.h"
+#include "evaluate/constant_text.h"
 
 static const size_t most_points = 10000000;
 
@@ -16,7 +18,7 @@ static bool unreadable(const char *text, nh_error *error)
 
 /* ---- exact values ---- */
 
-/* A decimal number or a ratio of two, as they are written. */
+/* A decimal number or a ratio of two, as they are written; of any other expression, as 2*pi, ten digits. */
 static bool read_exact(const char *text, size_t length, nh_num *out)
 {
     char word[64];
@@ -24,7 +26,11 @@ static bool read_exact(const char *text, size_t length, nh_num *out)
     if (length >= sizeof word) return false;
     memcpy(word, text, length);
     word[length] = 0;
-    if (!nh_text_to_parts(word, &a, &b)) return false;
+    if (!nh_text_to_parts(word, &a, &b)) {
+        if (!nh_constant_text(word, &a)) return false;
+        snprintf(word, sizeof word, "%.10g", a);
+        if (!nh_text_to_parts(word, &a, &b)) return false;
+    }
     nh_num p = nh_num_decimal(a), q = nh_num_decimal(b);
     if (!nh_num_short(p) || !nh_num_short(q)) return false;
     *out = nh_num_mul(p, nh_num_inv(q));

@@ -5,7 +5,7 @@
 
 #include "base/escape.h"
 #include "base/text.h"
-#include "graph/parse.h"
+#include "graph/name.h"
 
 static bool is_letter(char c) { return isalpha((unsigned char)c) || c == '_'; }
 
@@ -15,6 +15,22 @@ bool nh_is_name(const char *text)
     for (; *text; text++)
         if (!is_letter(*text) && !isdigit((unsigned char)*text)) return false;
     return true;
+}
+
+bool nh_name_is_function(const char *name, nh_function *out)
+{
+    for (int f = 0; f < NH_FUNCTION_COUNT; f++) {
+        if (f == NH_PI || f == NH_UNSPECIFIED || strcmp(name, nh_function_name((nh_function)f))) continue;
+        *out = (nh_function)f;
+        return true;
+    }
+    return false;
+}
+
+bool nh_is_reserved(const char *name)
+{
+    nh_function f;
+    return nh_name_is_function(name, &f) || !strcmp(name, "pi") || !strcmp(name, "t") || !strcmp(name, "sqrt");
 }
 
 const char *nh_name_of_letter(const char *at, size_t *length)

@@ -1,10 +1,14 @@
 /* parse: the expression language of system files (docs/formats.md).
  *
- *     expression = term { (+|-) term }        term  = unary { (*|/) unary }
+ *     expression = term { (+|-) term }        term  = unary { (*|/) unary | power }
  *     unary      = [-|+] unary | power        power = atom [ ^ unary ]       (right associative)
- *     atom       = number | name | function ( ... ) | ( expression )
+ *     atom       = number | name | function [ ^ number ] argument | ( expression )
+ *     argument   = ( expression, .. ) | number | name
  *
- * A power may also be written a**b, and names with Greek letters (nh_name_spelled).
+ * A product has no sign where a blank is between the factors, where a number stands before a name or a parenthesis, and
+ * where a name stands behind a prime or a parenthesis; not behind a quotient, which could be read in two ways, unless
+ * it is a fraction without blanks whose denominator is a number: 1/2 m.  A power may also be written a**b, x' of a
+ * coordinate dx/dt or diff(x, t), and all in the signs of books and of LaTeX (spelling.h, nh_name_spelled).
  * A decimal number is the exact rational it looks like, if that fits.  Names are resolved by the caller.  Parentheses,
  * calls, signs and powers may be nested 200 deep. */
 #ifndef NH_PARSE_H
@@ -15,6 +19,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "graph/dag.h"
+#include "graph/name.h"
 
 typedef struct {
     size_t offset; /* offset of the error in the text, in bytes */
@@ -32,25 +37,5 @@ bool nh_parse(nh_dag *dag, const char *text, nh_resolve *resolve, void *context,
 /* Parses "lhs = rhs"; a text without "=" is refused. */
 bool nh_parse_equation(nh_dag *dag, const char *text, nh_resolve *resolve, void *context, nh_ex *lhs, nh_ex *rhs,
                        nh_parse_fault *fault);
-
-/* A character that names cannot have stands in them by its number, as uni53F0 (so fonts name it): writes it, and reads
- * it: the length of such a word at `at`, or 0. */
-void nh_name_add_code(nh_text *out, uint32_t code);
-size_t nh_name_code(const char *at, uint32_t *code);
-/* Is the text a name of the language: a letter or _, then letters, digits and _? */
-bool nh_is_name(const char *text);
-/* The ASCII text for the Greek letter or subscript digit at this place ("phi", "1"), and its length in bytes there;
- * NULL: there is none. */
-const char *nh_name_of_letter(const char *at, size_t *length);
-/* The name at the beginning of the text as letters, digits and _ in `out` (room > 1 bytes, cut where it is longer):
- * theta for the Greek letter and for \theta, theta_1 for theta_{1}.  Returns how many bytes of the text it takes, 0:
- * there is none. */
-size_t nh_name_spelled(const char *text, char *out, size_t room);
-/* The ASCII text for a typographic sign, as word processors and books use them, at this place; NULL: there is none. */
-const char *nh_name_of_sign(const char *at);
-/* Adds to the fault what a name is made of, and a name similar to the text.  Returns false. */
-bool nh_name_hint(nh_error *error, const char *text);
-/* Is the name taken by a function, `pi` or `t`? */
-bool nh_is_reserved(const char *name);
 
 #endif

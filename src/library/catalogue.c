@@ -16,23 +16,6 @@
 
 /* ---- systems ---- */
 
-bool nh_catalogue_systems(nh_text *out)
-{
-    nh_arena *arena = nh_arena_create();
-    const char **names;
-    size_t count = nh_places_names(arena, "systems", &names);
-    for (size_t i = 0; i < count; i++) {
-        const char *path = nh_places_look(arena, "systems", names[i]);
-        nh_error trouble;
-        nh_error_clear(&trouble);
-        nh_system *s = path ? nh_system_read(path, 0, NULL, &trouble) : NULL;
-        nh_text_addf(out, "%-24s %s\n", names[i], s ? s->title : trouble.what);
-        nh_system_free(s);
-    }
-    nh_arena_free(arena);
-    return count > 0;
-}
-
 bool nh_catalogue_has(const char *name)
 {
     nh_arena *arena = nh_arena_create();
@@ -129,6 +112,28 @@ bool nh_catalogue_pattern(const char *name, nh_text *out)
     if (!nh_is_name(name)) return false;
     nh_text_addf(out, pattern, name, name);
     return true;
+}
+
+bool nh_catalogue_copy(const char *like, const char *name, nh_text *out, nh_error *error)
+{
+    nh_arena *arena = nh_arena_create();
+    const char *path = nh_places_find(arena, "systems", like, error);
+    nh_text text;
+    nh_text_init(&text);
+    bool good = path && nh_catalogue_show(path, false, &text, error);
+    if (good && (strstr(nh_text_string(&text), "\ninclude:") || strstr(nh_text_string(&text), "\nurdf:"))) {
+        nh_text_clear(&text); /* the other file is not found from here */
+        good = nh_catalogue_show(path, true, &text, error);
+    }
+    const char *whole = nh_text_string(&text), *at = !strncmp(whole, "name:", 5) ? whole : strstr(whole, "\nname:");
+    size_t before = at ? (size_t)(at - whole) + (*at == '\n') : 0;
+    if (good) nh_text_addf(out, "# After the system %s.  `nhsym analyze %s.yaml` analyses it.\n", like, name);
+    if (good) nh_text_add_n(out, whole, before);
+    if (good) nh_text_addf(out, "name: %s\n", name);
+    if (good) nh_text_add(out, at ? whole + before + strcspn(whole + before, "\n") + 1 : whole);
+    nh_text_clear(&text);
+    nh_arena_free(arena);
+    return good;
 }
 
 /* ---- words ---- */

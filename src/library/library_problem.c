@@ -96,8 +96,10 @@ static void list_systems(void *argument)
 {
     char **out = argument;
     nh_text text;
+    nh_error none;
     nh_text_init(&text);
-    nh_catalogue_systems(&text);
+    nh_error_clear(&none);
+    nh_catalogue_systems(NULL, &text, &none);
     *out = nh_strdup(nh_text_string(&text));
     nh_text_clear(&text);
 }
@@ -140,7 +142,7 @@ static bool read_parameters(nh_request *r, const char *set, nh_error *error)
     r->setting = nh_arena_alloc(r->arena, (set ? strlen(set) : 1) * sizeof *r->setting);
     while (set && next_pair(r->arena, &set, "set", &name, &value, error)) {
         double x;
-        if (!nh_text_to_ratio(value, &x)) {
+        if (!nh_request_number(value, &x)) {
             nh_fail(error, NH_USAGE, "", "set: `%s` needs a number, found `%s`", name, value);
             return nh_error_hint_number(error, value);
         }

@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "base/files.h"
-#include "evaluate/tape.h"
-#include "graph/parse.h"
+#include "evaluate/constant_text.h"
 #include "problem/analysis_file.h"
 #include "problem/input.h"
 #include "problem/places.h"
@@ -15,29 +14,7 @@
 
 static const char words_of_line[] = ", command line"; /* how the name of a completed file ends */
 
-static bool no_name(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
-{
-    (void)context, (void)name, (void)out, (void)fault;
-    return false;
-}
-
-/* The value of an expression of numbers, such as 2*pi. */
-static bool value_of(const char *text, double *value)
-{
-    nh_dag *dag = nh_dag_create();
-    nh_ex e;
-    nh_parse_fault fault;
-    bool good = nh_parse(dag, text, no_name, NULL, &e, &fault);
-    if (good) {
-        nh_tape *tape = nh_tape_create(dag, 0, NULL, 1, &e, 0, NULL, NULL);
-        nh_tape_work *work = nh_tape_work_create(tape);
-        nh_tape_eval(tape, work, NULL, value);
-        nh_tape_work_free(work);
-        nh_tape_free(tape);
-    }
-    nh_dag_free(dag);
-    return good && isfinite(*value);
-}
+bool nh_request_number(const char *text, double *value) { return nh_constant_text(text, value); }
 
 bool nh_request_option(nh_request *q, const char *name, const char *text, nh_error *error)
 {
@@ -52,7 +29,7 @@ bool nh_request_option(nh_request *q, const char *name, const char *text, nh_err
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) *known[i].given |= !strcmp(name, known[i].name);
     double value;
     char digits[40];
-    if (!strcmp(name, "until") && !nh_text_to_number(text, &value) && value_of(text, &value))
+    if (!nh_text_to_number(text, &value) && nh_constant_text(text, &value))
         snprintf(digits, sizeof digits, "%.17g", value), text = digits;
     return nh_options_set(&q->options, name, text, error);
 }

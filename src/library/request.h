@@ -66,6 +66,8 @@ typedef struct {
 /* A numerical option by its name (base/option.h); "auto", "quasi" or "coordinates"; the name of one more integrator, or
    "auto". */
 bool nh_request_option(nh_request *request, const char *name, const char *text, nh_error *error);
+/* A number, or an expression of numbers: 2*pi, 90deg, 1/3. */
+bool nh_request_number(const char *text, double *value);
 bool nh_request_velocities(nh_request *request, const char *word, nh_error *error);
 bool nh_request_method(nh_request *request, const char *word, nh_error *error);
 /* The entries of a list of integrators. */

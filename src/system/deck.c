@@ -11,6 +11,7 @@
 
 #include "system/deck_internal.h"
 #include "base/text.h"
+#include "evaluate/constant_text.h"
 
 const nh_deck_node *nh_deck_root(const nh_deck *deck)
 {
@@ -191,8 +192,9 @@ static void hint_unquote(const nh_deck_node *node, bool fresh, nh_error *error)
 
 bool nh_deck_number(const nh_deck *deck, const nh_deck_node *node, const char *what, double *out, nh_error *error)
 {
-    if (is_plain(node) && strchr(node->text, '/') && nh_text_to_ratio(node->text, out)) return true;
-    if (!is_plain(node) || !nh_text_is_number(node->text)) {
+    bool plain = is_plain(node), number = plain && nh_text_is_number(node->text);
+    if (plain && !number && nh_constant_text(node->text, out)) return true;
+    if (!number) {
         bool fresh = error && error->code == NH_OK;
         wrong(deck, node, what, error, "a number");
         hint_unquote(node, fresh, error);

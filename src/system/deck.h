@@ -53,6 +53,8 @@ const nh_deck_node *nh_deck_named(nh_deck *deck, const char *short_for, const nh
 const char *nh_deck_spelled(nh_arena *arena, const char *text);
 /* The same for every name of an expression. */
 const char *nh_deck_spelled_all(nh_arena *arena, const char *text);
+/* A Greek letter of LaTeX, such as \theta, that a scalar between double quotes lost to an escape; NULL: none. */
+const char *nh_deck_escaped_letter(const nh_deck *deck, const nh_deck_node *node);
 const nh_deck_node *nh_deck_root(const nh_deck *deck);
 const char *nh_deck_name(const nh_deck *deck);
 

@@ -4,29 +4,50 @@
 #include <string.h>
 
 #include "graph/parse.h"
+#include "graph/spelling.h"
 
 const char *nh_deck_spelled(nh_arena *arena, const char *text)
 {
     char name[256];
-    size_t n = nh_name_spelled(text, name, sizeof name);
-    bool prime = !strcmp(text + n, "'"), whole = n && (prime || !text[n]) && strlen(name) < sizeof name - 1;
-    if (!whole || !strncmp(text, name, n) || !nh_is_name(name)) return text;
-    return nh_arena_printf(arena, "%s%s", name, prime ? "'" : "");
+    nh_spelling spelling = nh_spelling_of(text);
+    const char *own = spelling.text + strspn(spelling.text, " ");
+    size_t n = nh_name_spelled(own, name, sizeof name), end = n + (own[n] == '\'');
+    bool whole = n && !own[end + strspn(own + end, " ")] && strlen(name) < sizeof name - 1 && nh_is_name(name);
+    const char *spelled = whole ? nh_arena_printf(arena, "%s%s", name, end > n ? "'" : "") : text;
+    nh_spelling_clear(&spelling);
+    return strcmp(spelled, text) ? spelled : text;
 }
 
 const char *nh_deck_spelled_all(nh_arena *arena, const char *text)
 {
     char name[256];
     nh_text out;
+    nh_spelling spelling = nh_spelling_of(text);
     nh_text_init(&out);
-    for (size_t n; *text; text += n ? n : 1) {
+    for (size_t n; *(text = spelling.text); spelling.text += n ? n : 1) {
         n = nh_name_spelled(text, name, sizeof name);
         if (n) nh_text_add(&out, name);
         else nh_text_add_n(&out, text, 1);
     }
+    nh_spelling_clear(&spelling);
     const char *copy = nh_arena_strdup(arena, nh_text_string(&out));
     nh_text_clear(&out);
     return copy;
+}
+
+const char *nh_deck_escaped_letter(const nh_deck *deck, const nh_deck_node *node)
+{
+    char name[64];
+    if (node->deck) deck = node->deck;
+    if (node->kind != NH_DECK_SCALAR || node->plain || deck->source[node->begin] != '"') return NULL;
+    for (size_t i = node->begin; i + 1 < node->end; i++) {
+        if (deck->source[i] != '\\') continue;
+        size_t length = 1 + strcspn(deck->source + i + 1, "\\\"' ^*/+-_()");
+        char *word = nh_arena_strndup(deck->arena, deck->source + i, length);
+        if (word[1] && nh_name_spelled(word, name, sizeof name)) return word + 1;
+        i++;
+    }
+    return NULL;
 }
 
 nh_deck_node *nh_deck_new(nh_deck *deck, nh_deck_kind kind, size_t begin, size_t end)
@@ -122,6 +143,11 @@ static bool add_entry(nh_deck *deck, nh_deck_node *map, size_t begin, size_t end
     if (!value && !name->text[0]) return true; /* a comma at the end */
     if (!name->text[0]) nh_deck_fail(deck, name, 0, error, "a name is missing before `=`");
     else if (!value || !value->text[0]) nh_deck_fail(deck, name, 0, error, "`%s` has no value", name->text);
+    const nh_deck_node *last = map->count ? map->item[map->count - 1] : NULL;
+    double number;
+    if (!value && last && nh_text_to_number(name->text, &number) && nh_text_to_number(last->text, &number)) /* x=0,5 */
+        return nh_error_hint(error, "decimals stand behind a point: %s=%s.%s", map->key[map->count - 1]->text,
+                             last->text, name->text);
     if (error->code != NH_OK) return nh_error_hint(error, cure);
     if (nh_deck_get(map, name->text)) return nh_deck_fail(deck, name, 0, error, "`%s` is given twice", name->text);
     nh_deck_put(deck, map, name->text, value);

@@ -7,6 +7,7 @@
 #include "graph/diff.h"
 #include "graph/parse.h"
 #include "graph/print.h"
+#include "system/ordinary.h"
 #include "system/system_internal.h"
 
 /* ---- names ---- */
@@ -72,6 +73,8 @@ static bool rate_of_definition(const scope *s, const char *name, nh_ex *out, nh_
     return !fault->what[0];
 }
 
+static const char undeclared[] = "declare it under parameters, coordinates or definitions";
+
 /* "did you mean" over everything that has a name here: the nearest name, or NULL. */
 static const char *suggest(const scope *s, const char *name, nh_parse_fault *fault)
 {
@@ -103,7 +106,7 @@ static const char *suggest(const scope *s, const char *name, nh_parse_fault *fau
         snprintf(fault->hint, sizeof fault->hint,
                  "declare it in the system file (parameters, coordinates, definitions), or where this has definitions, "
                  "unknowns or a start of its own");
-    else snprintf(fault->hint, sizeof fault->hint, "declare it under parameters, coordinates or definitions");
+    else snprintf(fault->hint, sizeof fault->hint, "%s", undeclared);
     nh_free(list);
     return near;
 }
@@ -213,12 +216,24 @@ static bool read_text(const nh_system *y, const char *text, scope *s, nh_ex *lhs
 }
 
 /* The same with what is wrong. */
+static bool is_known(void *context, const char *name)
+{
+    nh_parse_fault fault = {.offset = 0};
+    nh_ex any;
+    return resolve(context, name, &any, &fault);
+}
+
 static bool read_node(const nh_deck *deck, const nh_deck_node *node, size_t skip, scope *s, nh_ex *lhs, nh_ex *rhs,
                       nh_parse_fault *fault, nh_error *error)
 {
     if (!lhs && !not_an_equation(deck, node, skip, error)) return false;
     if (read_text(s->system, node->text + skip, s, lhs, rhs, fault)) return true;
     nh_deck_fail(deck, node, skip + fault->offset, error, "%s", fault->what);
+    const char *letter = nh_deck_escaped_letter(deck, node);
+    if (letter)
+        return nh_error_hint(error, "between double quotes YAML reads \\%c in its own way: write '\\%s' between single "
+                                    "quotes, or %s", *letter, letter, letter);
+    if (!strcmp(fault->hint, undeclared)) return nh_ordinary_hint_declare(deck, is_known, s, error);
     return fault->hint[0] ? nh_error_hint(error, "%s", fault->hint) : false;
 }
 
@@ -281,14 +296,19 @@ long nh_system_coordinate(const nh_system *system, const char *name)
 
 const char *nh_system_state_name(const nh_system *s, const char *name)
 {
-    static const char dot[] = "_dot";
+    static const char *const around[][2] = {{"", "_dot"}, {"", "dot"}, {"d", "/dt"}};
     name = nh_deck_spelled(s->arena, name);
-    size_t length = strlen(name), tail = sizeof dot - 1;
+    size_t length = strlen(name);
     nh_ex taken;
-    if (length <= tail || strcmp(name + length - tail, dot) || nh_symbol_find(s->dag, name, &taken)) return name;
-    if (in_named(s->definitions, s->definition, name, &taken)) return name;
-    long q = nh_system_coordinate(s, nh_arena_strndup(s->arena, name, length - tail));
-    return q < 0 ? name : nh_arena_printf(s->arena, "%s'", s->coordinate[q].name);
+    if (nh_symbol_find(s->dag, name, &taken) || in_named(s->definitions, s->definition, name, &taken)) return name;
+    for (size_t i = 0; i < sizeof around / sizeof *around; i++) {
+        size_t head = strlen(around[i][0]), tail = strlen(around[i][1]);
+        if (length <= head + tail || strncmp(name, around[i][0], head) || strcmp(name + length - tail, around[i][1]))
+            continue;
+        long q = nh_system_coordinate(s, nh_arena_strndup(s->arena, name + head, length - head - tail));
+        if (q >= 0) return nh_arena_printf(s->arena, "%s'", s->coordinate[q].name);
+    }
+    return name;
 }
 
 void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const double **values)

@@ -47,7 +47,6 @@ bool nh_system_apply_settings(nh_system_reader *r, size_t count, const nh_settin
 bool nh_system_read_functions(nh_system_reader *r, size_t count, const nh_setting *setting);
 bool nh_system_is_function_setting(const nh_setting *setting);
 bool nh_system_new_name(nh_system_reader *r, const nh_deck_node *node); /* is it free and well formed? */
-bool nh_system_known_keys(const nh_system_reader *r); /* refuses those of other programs */
 bool nh_system_read_chart(nh_system_reader *r);
 bool nh_system_read_forces(nh_system_reader *r);
 bool nh_system_read_domain(nh_system_reader *r);

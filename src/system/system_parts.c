@@ -192,7 +192,7 @@ static bool consists_of(const char *word, const char *before, const char *middle
 const char *nh_system_velocity_meant(const nh_system *s, const char *word, const char *near)
 {
     static const char *const around[][2] = {{"", "dot"}, {"", "_dot"}, {"dot", ""}, {"dot_", ""}, {"d", ""},
-                                            {"d", "/dt"}, {"d", "_dt"}, {"v", ""},  {"v_", ""}};
+                                            {"d", "/dt"}, {"d", "_dt"}, {"v", ""},  {"v_", ""}, {"", "d"}};
     static const char digits[] = "0123456789";
     const char *same = NULL; /* the coordinate that ends in the digits after v */
     size_t alike = 0;
@@ -385,34 +385,4 @@ bool nh_system_read_known(nh_system_reader *r)
     return nh_deck_only(r->deck, known, keys, 3, r->error) &&
            read_named_list(r, known, "currents", &s->current, &s->currents) &&
            read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved) && nh_system_check_motions(r, known);
-}
-
-/* Keys that files of other programs may have, and their equivalents here. */
-static const struct {
-    const char *key, *hint;
-} elsewhere[] = {
-    {"T", "definitions: [\"T = m/2*x'^2\", \"V = k/2*x^2\"], then lagrangian: T - V"},
-    {"V", "definitions: [\"T = m/2*x'^2\", \"V = k/2*x^2\"], then lagrangian: T - V"},
-    {"kinetic", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
-    {"kinetic_energy", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
-    {"potential", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
-    {"potential_energy", "lagrangian: m/2*x'^2 - k/2*x^2, the kinetic minus the potential energy"},
-    {"hamiltonian", "a system is given by its Lagrangian: lagrangian: m/2*x'^2 - k/2*x^2"},
-    {"holonomic", "constraints: [\"x = y\", \"y' = x*x'\"]: equations of positions and of velocities"},
-    {"nonholonomic", "constraints: [\"x = y\", \"y' = x*x'\"]: equations of positions and of velocities"},
-    {"inputs", "an input is a parameter: {name: u, value: 0, input: true}"},
-    {"quasi_velocities", "velocities: {names: [v], map: [\"x' = v\"]}"},
-    {"ansatz", "this is an analysis file: nhsym analyze SYSTEM --analysis FILE"},
-    {"initial", "a motion's start is no part of the system: --initial \"x=1\", or an analysis file (`validate`)"},
-};
-
-bool nh_system_known_keys(const nh_system_reader *r)
-{
-    for (size_t i = 0; i < r->root->count; i++)
-        for (size_t j = 0; j < sizeof elsewhere / sizeof *elsewhere; j++)
-            if (!strcmp(r->root->key[i]->text, elsewhere[j].key)) {
-                nh_deck_fail(r->deck, r->root->key[i], 0, r->error, "unknown key `%s`", elsewhere[j].key);
-                return nh_error_hint(r->error, "%s", elsewhere[j].hint);
-            }
-    return true;
 }

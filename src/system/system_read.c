@@ -7,20 +7,13 @@
 #include "graph/declared.h"
 #include "graph/diff.h"
 #include "graph/parse.h"
+#include "system/ordinary.h"
 #include "system/reach.h"
 #include "system/robot.h"
 #include "system/system_internal.h"
 #include "system/units.h"
 
 typedef nh_system_reader reader;
-
-static const char *const top_keys[] = {
-    "name",        "title",     "source",     "parameters", "coordinates", "definitions", "lagrangian",
-    "constraints", "dependent", "velocities", "forces",     "domain",      "known",       "doc",
-    "bodies",      "joints",    "gravity",    "wheels",     "symmetry",    "draw",        "robustness",
-    "include",     "urdf",      "base",       "notes",      "levels",      "points",      "springs",
-    "dampers",     "actuators", "dissipation", "functions"};
-enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 void *nh_system_take(reader *r, size_t count, size_t size)
 {
@@ -94,6 +87,8 @@ static bool read_parameters(reader *r)
     s->parameter = nh_system_take(r, n, sizeof *s->parameter);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i];
+        bool name_alone = item->kind == NH_DECK_SCALAR && nh_is_name(item->text);
+        if (name_alone) return nh_ordinary_ask_values(r->deck, list, item, r->error);
         if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a parameter {name: ..., value: ...}", r->error)) return false;
         if (!nh_deck_only(r->deck, item, keys, 5, r->error)) return false;
         const nh_deck_node *name = nh_deck_get(item, "name"), *value = nh_deck_get(item, "value");
@@ -175,6 +170,8 @@ static bool read_coordinates(reader *r)
         if (s->chain)
             return nh_error_hint(r->error, "every joint is fixed: --base floating (or `base: floating`) lets the body "
                                            "that carries all others move");
+        const char *moving = list ? NULL : nh_ordinary_moving(r->deck);
+        if (moving) return nh_error_hint(r->error, "coordinates: %s", moving);
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
     if (n > most_coordinates) {
@@ -217,9 +214,13 @@ static bool read_quasi_names(reader *r)
     return true;
 }
 
-/* Split "name = expression" at its first `=`; the name must be the whole left side. */
+/* Split "name = expression" at its first `=`, or the map {name: expression}; the name must be the whole left side. */
 bool nh_system_assignment_name(reader *r, const nh_deck_node *node, const char *what, const char **name)
 {
+    if (node->kind == NH_DECK_MAP && node->count == 1) {
+        *name = nh_deck_spelled(r->system->arena, node->key[0]->text);
+        return nh_deck_is(r->deck, node->item[0], NH_DECK_SCALAR, "an expression", r->error);
+    }
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, what, r->error)) return false;
     const char *equal = strchr(node->text, '=');
     if (!equal) return nh_deck_fail(r->deck, node, 0, r->error, "%s was expected, but there is no `=`", what);
@@ -229,10 +230,17 @@ bool nh_system_assignment_name(reader *r, const nh_deck_node *node, const char *
     return true;
 }
 
+/* Where the right side stands: in which scalar, and behind how many bytes. */
+static size_t right_side(const nh_deck_node **node)
+{
+    if ((*node)->kind == NH_DECK_MAP) return *node = (*node)->item[0], 0;
+    return (size_t)(strchr((*node)->text, '=') - (*node)->text) + 1;
+}
+
 /* The right side, as an expression. */
 bool nh_system_read_right_side(reader *r, const nh_deck_node *node, unsigned forbid, nh_ex *out)
 {
-    size_t skip = (size_t)(strchr(node->text, '=') - node->text) + 1;
+    size_t skip = right_side(&node);
     return nh_system_read_expression(r->system, r->deck, node, skip, forbid, 0, NULL, NULL, out, r->error);
 }
 
@@ -253,11 +261,12 @@ static bool read_definition(reader *r, const nh_deck_node *node, const char *nam
 {
     nh_system *s = r->system;
     nh_named *d = &s->definition[s->definitions];
-    nh_deck_node name = *node;
+    bool entry = node->kind == NH_DECK_MAP;
+    nh_deck_node name = entry ? *node->key[0] : *node;
     name.text = d->name = name_text;
     if (!nh_system_new_name(r, &name)) return false;
     if (!nh_system_read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
-    d->text = node->text;
+    d->text = entry ? nh_arena_printf(s->arena, "%s = %s", name_text, node->item[0]->text) : node->text;
     nh_named *framed = &s->framed_definition[s->definitions];
     *framed = *d;
     if (s->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value)) return false;
@@ -283,7 +292,9 @@ static bool read_definitions(reader *r, bool late)
     for (size_t i = 0; i < n; i++) {
         const char *name;
         if (!nh_system_assignment_name(r, list->item[i], "a definition `name = expression`", &name)) return false;
-        bool waited = s->chain && points && waits(r, strchr(list->item[i]->text, '='), waiting, wait);
+        const nh_deck_node *value = list->item[i];
+        size_t skip = right_side(&value);
+        bool waited = s->chain && points && waits(r, value->text + skip, waiting, wait);
         if (waited) wait[waiting++] = name;
         if (waited == late && !read_definition(r, list->item[i], name)) return false;
     }
@@ -406,7 +417,7 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)",
                     r->error))
         return false;
-    if (!nh_system_known_keys(r) || !nh_deck_only(r->deck, r->root, top_keys, top_key_count, r->error)) return false;
+    if (!nh_ordinary_only_known(r->deck, r->error)) return false;
     const char *doc; /* text for readers of the file */
     if (!nh_system_text_of(r, r->root, "name", "system", &s->name) ||
         !nh_system_text_of(r, r->root, "title", s->name, &s->title))
@@ -426,24 +437,10 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
            && (s->levels || (nh_system_read_known(r) && nh_system_read_robustness(r)));
 }
 
-/* Files of earlier versions: chart {velocities: ..}, and stress. */
-static bool rename_old_keys(nh_deck *deck, nh_error *error)
-{
-    const nh_deck_node *root = nh_deck_root(deck);
-    if (!nh_deck_rename(deck, nh_deck_get(root, "chart"), "velocities", "names", error)) return false;
-    if (!nh_deck_rename(deck, root, "chart", "velocities", error) ||
-        !nh_deck_rename(deck, root, "stress", "robustness", error))
-        return false;
-    const nh_deck_node *maps = nh_deck_get(root, "robustness");
-    for (size_t i = 0; maps && maps->kind == NH_DECK_LIST && i < maps->count; i++)
-        if (!nh_deck_rename(deck, maps->item[i], "chart", "velocities", error)) return false;
-    return true;
-}
-
 /* The deck, or NULL where it could not be completed. */
 static nh_deck *whole(nh_deck *deck, nh_error *error)
 {
-    if (deck && nh_deck_include(deck, rename_old_keys, error) && nh_robot_complete(deck, error)) return deck;
+    if (deck && nh_deck_include(deck, nh_ordinary_keys, error) && nh_robot_complete(deck, error)) return deck;
     nh_deck_free(deck);
     return NULL;
 }

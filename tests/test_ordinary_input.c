@@ -1,0 +1,280 @@
+/* ordinary_input: what people write as on paper is read, with its meaning, or refused with the text to write, which then is read. */
+#include <criterion/criterion.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/files.h"
+#include "base/memory.h"
+#include "graph/print.h"
+#include "program.h"
+#include "system/system.h"
+
+/* ---- expressions ---- */
+
+/* As written, and in the canonical form.  One that is refused has its canonical form in the hint. */
+static const struct {
+    const char *written, *means;
+} READ[] = {
+    {"x**2", "x^2"},
+    {"θ", "theta"},
+    {"m θ'^2", "m*theta'^2"},
+    {"½ m l² θ̇²", "1/2*m*l^2*theta'^2"},
+    {"½m θ̇² + ¼", "m*theta'^2/2 + 1/4"},
+    {"m/2 (ẋ² + ẏ²)", "m/2*(x'^2 + y'^2)"},
+    {"ẋ_1 + ẋ₁", "2*x_1' + x1' - x_1'"},
+    {"2·x×y − y÷2", "2*x*y - y/2"},
+    {"x’ + y‘ + x′", "2*x' + y'"},
+    {"x⁻² + y¹²", "x^-2 + y^12"},
+    {"cos θ", "cos(theta)"},
+    {"−m g l cos θ", "-m*g*l*cos(theta)"},
+    {"m g l (1 - cos θ)", "m*g*l*(1 - cos(theta))"},
+    {"2(x + 1)", "2*(x + 1)"},
+    {"2x + 3.5y", "2*x + 3.5*y"},
+    {"2 m l", "2*m*l"},
+    {"2 m x y x' y'", "2*m*x*y*x'*y'"},
+    {"m l^2 θ'^2/2", "m*l^2*theta'^2/2"},
+    {"1/2 m x'^2", "1/2*m*x'^2"},
+    {"x'y'", "x'*y'"},
+    {"sin(x)cos(y)", "sin(x)*cos(y)"},
+    {"cos θ cos φ", "cos(theta)*cos(phi)"},
+    {"sin^2(x) + cos^2 x", "sin(x)^2 + cos(x)^2"},
+    {"sin² θ φ̇²", NULL},
+    {"sin²(θ) φ̇²", "sin(theta)^2*phi'^2"},
+    {"√x + √(x + y) + sqrt 2", "sqrt(x) + sqrt(x + y) + sqrt(2)"},
+    {"theta_dot + thetadot", "2*theta'"},
+    {"dtheta/dt", "theta'"},
+    {"m/2 (dx/dt)^2", "m/2*x'^2"},
+    {"dθ/dt + dx(t)/dt", "theta' + x'"},
+    {"diff(theta, t) + diff(theta(t), t)", "2*theta'"},
+    {"Derivative(x, t)^2 + Derivative(x(t),t)", "x'^2 + x'"},
+    {"theta(t) + x'(t)", "theta + x'"},
+    {"90deg + 90° + 90 deg", "3*pi/2"},
+    {"π x", "pi*x"},
+    {"2π", "2*pi"},
+    {"\\dot{\\theta}^2 + \\dot\\phi", "theta'^2 + phi'"},
+    {"\\frac{1}{2} m l^2 \\dot{\\theta}^{2}", "1/2*m*l^2*theta'^2"},
+    {"\\frac{m}{2}\\left(\\dot x^2 + \\dot{y}^2\\right)", "m/2*(x'^2 + y'^2)"},
+    {"m g l \\cos\\theta - m\\,g\\,x", "m*g*l*cos(theta) - m*g*x"},
+    {"\\frac{d\\theta}{dt}", "theta'"},
+    {"\\sin^2\\theta", "sin(theta)^2"},
+    {"\\dot{x}_1", "x_1'"},
+    {"x^{2}", "x^2"},
+    {"x\ty", "x*y"},
+}, REFUSED[] = {
+    {"m(x + 1)", "m*(x + 1)"},
+    {"(x + 1)(y + 2)", "(x + 1)*(y + 2)"},
+    {"x^2y", "x^2*y"},
+    {"x 2", "x*2"},
+    {"(x)2", "(x)*2"},
+    {"1/2m", "1/2*m"},
+    {"g/l x", "g/l*x"},
+    {"1/2(x + y)", "1/2*(x + y)"},
+    {"sin 2x", "sin(2*x)"},
+    {"sin x^2", "sin(x^2)"},
+    {"cos x*y", "cos(x*y)"},
+    {"mgl", "m*g*l"},
+    {"mgl cos θ", "m*g*l*cos(theta)"},
+    {"costheta", "cos(theta)"},
+    {"sinθ", "sin(theta)"},
+    {"m*9,81", "m*9.81"},
+    {"1½", "1+1/2"},
+    {"m*x(y)", "m*x*(y)"},
+    {"V(x)", "V*(x)"},
+    {"lθ̇", "l*theta'"},
+};
+
+static void frame(const char *expression, char *text, size_t size)
+{
+    cr_assert_lt(snprintf(text, size,
+                          "parameters: {m: 1, g: 9.81, l: 2}\n"
+                          "coordinates: [theta, phi, x, y, x_1, x1]\n"
+                          "definitions:\n  - V = x^2\n  - |-\n    u = %s\n"
+                          "lagrangian: theta'^2 + phi'^2 + x'^2 + y'^2 + x_1'^2 + x1'^2 + u\n",
+                          expression),
+                 (int)size);
+}
+
+/* What a system says: its coordinates, parameters, Lagrangian, constraints and forces. */
+static char *meaning(const char *text, nh_error *error)
+{
+    nh_text out;
+    nh_error_clear(error);
+    nh_system *s = nh_system_parse("test.yaml", text, 0, NULL, error);
+    if (!s) return NULL;
+    nh_text_init(&out);
+    for (size_t i = 0; i < s->coordinates; i++) nh_text_addf(&out, "%s, ", s->coordinate[i].name);
+    for (size_t i = 0; i < s->parameters; i++)
+        nh_text_addf(&out, "%s = %.17g, ", s->parameter[i].name, s->parameter[i].value);
+    char *lagrangian = nh_print_string(s->dag, s->lagrangian);
+    nh_text_addf(&out, "L = %s", lagrangian);
+    nh_free(lagrangian);
+    for (size_t i = 0; i < s->constraints + s->coordinates; i++) {
+        nh_ex e = i < s->constraints ? nh_sub(s->dag, s->constraint[i].lhs, s->constraint[i].rhs)
+                                     : s->force[i - s->constraints];
+        char *one = nh_print_string(s->dag, e);
+        nh_text_addf(&out, "; %s", one);
+        nh_free(one);
+    }
+    nh_system_free(s);
+    return out.data;
+}
+
+static char *meaning_of_expression(const char *expression, nh_error *error)
+{
+    char text[2000];
+    frame(expression, text, sizeof text);
+    return meaning(text, error);
+}
+
+/* The first text in `...` behind "write " in the hint. */
+static bool proposed(const nh_error *error, const char *before, char *out, size_t size)
+{
+    const char *begin = strstr(error->hint, before), *end;
+    if (!begin) return false;
+    begin += strlen(before);
+    end = strchr(begin, '`');
+    return end && snprintf(out, size, "%.*s", (int)(end - begin), begin) < (int)size;
+}
+
+Test(ordinary_input, expressions_are_read)
+{
+    for (size_t i = 0; i < sizeof READ / sizeof *READ; i++) {
+        nh_error error, other;
+        if (!READ[i].means) continue;
+        char *found = meaning_of_expression(READ[i].written, &error), *wanted = meaning_of_expression(READ[i].means, &other);
+        cr_expect(found, "%s: %s; %s", READ[i].written, error.what, error.hint);
+        cr_assert(wanted, "%s: %s", READ[i].means, other.what);
+        if (found) cr_expect_str_eq(found, wanted, "%s: %s, not %s", READ[i].written, found, wanted);
+        nh_free(found);
+        nh_free(wanted);
+    }
+}
+
+Test(ordinary_input, refused_expressions_come_with_the_one_to_write)
+{
+    for (size_t i = 0; i < sizeof REFUSED / sizeof *REFUSED; i++) {
+        nh_error error, other;
+        char text[300];
+        char *found = meaning_of_expression(REFUSED[i].written, &error);
+        cr_expect_null(found, "%s is read as %s", REFUSED[i].written, found);
+        nh_free(found);
+        if (!proposed(&error, "write `", text, sizeof text)) {
+            cr_expect(false, "%s: %s; %s", REFUSED[i].written, error.what, error.hint);
+            continue;
+        }
+        char *mended = meaning_of_expression(text, &error), *wanted = meaning_of_expression(REFUSED[i].means, &other);
+        cr_assert(wanted, "%s: %s", REFUSED[i].means, other.what);
+        cr_expect(mended && !strcmp(mended, wanted), "%s: %s is proposed, not %s", REFUSED[i].written, text, REFUSED[i].means);
+        nh_free(mended);
+        nh_free(wanted);
+    }
+}
+
+/* ---- files ---- */
+
+/* The text up to the next line that begins with "=== ", whose rest is in *rest; NULL at the end. */
+static char *part(char **at, char **rest)
+{
+    char *begin = *at, *end = strncmp(begin, "=== ", 4) ? strstr(begin, "\n=== ") : begin - 1;
+    if (end) {
+        *rest = end + 5;
+        *at = strchr(*rest, '\n') + 1;
+        (*at)[-1] = 0;
+        if (end >= begin) end[1] = 0;
+    } else {
+        *rest = NULL;
+        *at = begin + strlen(begin);
+    }
+    return begin;
+}
+
+/* Does the file mean the same as the other one, or is it refused with a line that stands in the other one? */
+static void check_file(const char *name, const char *file, const char *refused, const char *means)
+{
+    nh_error error, other;
+    char *found = meaning(file, &error), *wanted = meaning(means, &other);
+    cr_expect(wanted, "%s: %s; %s", name, other.what, other.hint);
+    if (refused) {
+        char line[200];
+        snprintf(line, sizeof line, "%.*s", (int)strcspn(refused, "\n"), refused);
+        cr_expect_null(found, "%s is read", name);
+        cr_expect(strstr(error.hint, line) || strstr(error.what, line), "%s: %s; %s", name, error.what, error.hint);
+        cr_expect(strstr(means, line) || !strstr(error.hint, line), "%s: the line `%s` is not what the mended file has", name, line);
+    } else {
+        cr_expect(found, "%s: %s; %s", name, error.what, error.hint);
+        if (found && wanted) cr_expect_str_eq(found, wanted, "%s: %s, not %s", name, found, wanted);
+    }
+    nh_free(found);
+    nh_free(wanted);
+}
+
+Test(ordinary_input, files_are_read_or_refused_with_the_line_to_write)
+{
+    nh_error error;
+    size_t length, cases = 0;
+    char *bytes = nh_files_read("tests/data/ordinary_input.txt", 1 << 20, &length, &error), *at = bytes, *name, *rest;
+    cr_assert_not_null(bytes);
+    part(&at, &name);
+    while (name) {
+        char *file = part(&at, &rest), *refused = NULL;
+        cr_assert_not_null(rest, "%s", name);
+        if (!strcmp(rest, "refused")) refused = part(&at, &rest);
+        cr_assert(rest && !strcmp(rest, "is"), "%s", name);
+        char *means = part(&at, &rest);
+        check_file(name, file, refused, means);
+        cases++;
+        name = rest;
+    }
+    cr_expect_geq(cases, 30, "%zu", cases);
+    nh_free(bytes);
+}
+
+/* The ends of lines and a mark at the beginning do not matter, nor a tab between the words of an expression. */
+Test(ordinary_input, files_of_other_editors)
+{
+    static const char *const files[] = {"coordinates: [x]\r\nlagrangian: x'^2/2 - x^4\r\n", "\xEF\xBB\xBF" "coordinates: [x]\nlagrangian: x'^2/2 - x^4",
+                                        "coordinates: [x]\nlagrangian: x'^2/2\t-\tx^4\n", "coordinates: [x]\rlagrangian: x'^2/2 - x^4\r"};
+    nh_error error;
+    char *wanted = meaning("coordinates: [x]\nlagrangian: x'^2/2 - x^4\n", &error);
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        char *found = meaning(files[i], &error);
+        cr_expect(found && !strcmp(found, wanted), "%zu: %s; %s", i, error.what, error.hint);
+        nh_free(found);
+    }
+    nh_free(wanted);
+}
+
+/* ---- the command line ---- */
+
+Test(ordinary_input, numbers_of_options_are_expressions)
+{
+    static const char *const pairs[][2] = {
+        {"--initial theta=90deg --until 2pi --step pi/4", "--initial theta=pi/2 --until 6.283185307179586 --step 0.7853981633974483"},
+        {"--initial θ=90°,θ̇=0 --until 1 --step 1/2", "--initial theta=pi/2,theta'=0 --until 1 --step 0.5"},
+        {"--initial theta_dot=1 --until 1 --step 1", "--initial theta'=1 --until 1 --step 1"},
+        {"--initial dtheta/dt=1 --until 1 --step 1", "--initial theta'=1 --until 1 --step 1"},
+        {"--initial thetadot:1 --until 1 --step 1", "--initial theta'=1 --until 1 --step 1"},
+        {"--initial theta=1 --set g=2*pi --until 1 --step 1", "--initial theta=1 --set g=6.283185307179586 --until 1 --step 1"},
+        {"--initial theta=1 --set g=sqrt(3) --until 1 --step 1", "--initial theta=1 --set g=1.7320508075688772 --until 1 --step 1"},
+        {"--initial theta=1 --tolerance 10^-8 --until 1 --step 1", "--initial theta=1 --tolerance 1e-8 --until 1 --step 1"},
+        {"--over theta=0:pi/2:3 --until 1 --step 1", "--over theta=0:1.570796327:3 --until 1 --step 1"},
+        {"--over g=1,π --until 1 --step 1 --initial theta=1", "--over g=1,3.141592654 --until 1 --step 1 --initial theta=1"},
+    };
+    place p = place_make();
+    write_here(&p, "swing.yaml", "parameters: {g: 9.81}\ncoordinates: [theta]\nlagrangian: θ̇²/2 + g cos θ\n");
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        char line[2][400];
+        for (int k = 0; k < 2; k++) snprintf(line[k], sizeof line[k], "simulate swing.yaml -q %s", pairs[i][k]);
+        finished a = run(&p, line[0]), b = run(&p, line[1]);
+        cr_expect(a.code == 0 && b.code == 0 && !strcmp(a.out, b.out), "%s: %s %s", pairs[i][0], a.err, b.err);
+        finished_clear(&a);
+        finished_clear(&b);
+    }
+    finished comma = run(&p, "simulate swing.yaml --initial theta=0,5"), set = run(&p, "simulate swing.yaml --set g=9,81");
+    cr_expect(comma.code == 2 && strstr(comma.err, "theta=0.5"), "%s", comma.err);
+    cr_expect(set.code == 2 && strstr(set.err, "--set g=9.81"), "%s", set.err);
+    finished_clear(&comma);
+    finished_clear(&set);
+    place_clear(&p);
+}
