@@ -23,8 +23,8 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan linearize export", "write the result as a LaTeX document")                                 \
     X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "LaTeX without a preamble, to include in another document")                      \
     X('o',             "output",      required_argument, "DIR",                "analyze verify simulate reduce classify benchmark scan linearize export new", "-o: write all files into a folder; of `new`: the file")                      \
-    X(opt_current,     "current",     required_argument, "EXPR",               "verify", "is this conserved?")                                                     \
-    X(opt_field,       "field",       required_argument, "\"Z0=..; x=..\"",    "verify", "is this a constraint symmetry?")                                         \
+    X(opt_current, "current", required_argument, "EXPR", "verify", "is this conserved?") \
+    X(opt_field, "field", required_argument, "\"Z0=..; x=..\"", "verify", "is this a constraint symmetry?") \
     X(opt_equations,   "equations",   no_argument,       "",                   "analyze verify reduce", "also the geometry: forms, Gamma, determining equations; connection, curvature, H") \
     X(opt_initial,     "initial",     required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export", "initial state")                                       \
     X(opt_at, "at", required_argument, "\"x'=4, lean=0\"", "linearize", "the state; all else is 0 or follows") \
@@ -36,14 +36,14 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_event,       "event",       required_argument, "\"y = 0, falling, stop\"", "simulate", "zeros of an expression along the motion: rising, falling or both; stop: the first ends it; repeatable") \
     X(opt_section,     "section",     required_argument, "\"x, rising\"",       "simulate", "a Poincare section: a row for each zero of the expression, instead of the motion's table") \
     X(opt_axes,        "axes",        required_argument, "\"y, y'\"",            "simulate", "the two columns that the picture shows: a path, or a phase portrait; else columns over time") \
-    X(opt_scene,       "scene",       no_argument,       "",                   "simulate", "only the quantities of the analysis file")                             \
+    X(opt_scene, "scene", no_argument, "", "simulate", "only the quantities of the analysis file") \
     X(opt_accuracy,    "accuracy",    required_argument, "EPS",                "analyze simulate reduce", "largest error of the motions; the program chooses and checks method and tolerance") \
     X(opt_ensemble,    "ensemble",    required_argument, "N",                  "simulate", "N motions at once, from states around the initial state")             \
-    X(opt_spread,      "spread",      required_argument, "S",                  "simulate", "relative spread of initial states")                                                       \
-    X(opt_robustness, "robustness",  no_argument,       "",                   "benchmark", "maps of where the methods fail")                                          \
+    X(opt_spread, "spread", required_argument, "S", "simulate", "relative spread of initial states") \
+    X(opt_robustness, "robustness", no_argument, "", "benchmark", "maps of where the methods fail") \
     X(opt_over, "over", required_argument, "RANGES", "simulate benchmark classify scan linearize", "values or ranges of parameters; repeatable") \
     X(opt_shape,       "shape",       no_argument,       "",                   "classify", "only integrals whose coefficients do not depend on cyclic coordinates") \
-    X(opt_of,          "of",          required_argument, "WORDS", "verify scan classify export show", "the results to compute")         \
+    X(opt_of, "of", required_argument, "WORDS", "verify scan classify export show", "the results to compute") \
     X(opt_number,      "number",      required_argument, "NAME",               "scan", "a number by its path in the JSON, as in group.dimension; repeatable")          \
     X(opt_workers,     "workers",     required_argument, "N",                  "scan", "processes that share the work; it does not change the result")                 \
     X(opt_chunk,       "chunk",       required_argument, "I/N",                "scan", "only part I of N, for job arrays; then once without it")                       \

@@ -130,23 +130,20 @@ static const char *label_of(const nh_analysis *r, const nh_current *f)
     return p && !nh_depends(d, f->phi, nh_symbol(d, p)) ? nh_arena_printf(r->arena, "%s = ", p) : "";
 }
 
-static void put_formula(const screen *x, size_t k)
+/* "2  p_x = m*x'"; NULL: the words in its place. */
+static void put_formula(const screen *x, size_t number, const char *label, char *formula, const char *instead)
 {
-    const nh_current *f = &x->r->found[k];
     nh_text text, block;
     nh_text_init(&text);
     nh_text_init(&block);
-    nh_text_addf(&text, "%-*zu%s", k < 9 ? 3 : 4, k + 1, label_of(x->r, f));
-    char *formula = nh_print_string(x->r->model->dag, x->list.formula[k]);
-    if (f->series) nh_text_add(&text, "a series with proved bounds (--details)");
-    else if (!x->list.stands[k]) nh_text_add(&text, "a long formula (--details)");
-    else nh_text_add(&text, formula);
+    nh_text_addf(&text, "%-*zu%s", number < 10 ? 3 : 4, number, label);
+    size_t head = text.length;
+    nh_text_add(&text, formula ? formula : instead);
     nh_sheet_broken(0, hang + 2, nh_text_string(&text), &block);
     size_t n = lines_in(nh_text_string(&block));
     if (n > (x->terse ? short_lines : formula_lines)) {
-        nh_text_clear(&text);
         nh_text_clear(&block);
-        nh_text_addf(&block, "%-*zu%sa formula of %zu lines (--details)\n", k < 9 ? 3 : 4, k + 1, label_of(x->r, f), n);
+        nh_text_addf(&block, "%.*sa formula of %zu lines (--details)\n", (int)head, nh_text_string(&text), n);
     }
     paint(x, "36", nh_text_string(&block));
     nh_free(formula);
@@ -241,7 +238,9 @@ static void put_quantity(const screen *x, size_t k)
     nh_text words, symmetry;
     nh_text_init(&words);
     nh_text_init(&symmetry);
-    put_formula(x, k);
+    bool written = !f->series && x->list.stands[k];
+    put_formula(x, k + 1, label_of(r, f), written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL,
+                f->series ? "a series with proved bounds (--details)" : "a long formula (--details)");
     bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry);
     put_meaning(r, f, rotations, &words);
     bool follows = f->independence == NH_DEPENDENT;
@@ -276,25 +275,19 @@ static void put_parts(const screen *x)
     }
 }
 
+/* What is constant in a part of the motions only. */
 static void put_regions(const screen *x)
 {
     const nh_analysis *r = x->r;
     for (size_t k = 0; k < r->pieces; k++) {
-        nh_text line;
-        nh_text_init(&line);
-        nh_text_addf(&line, "%s, while a motion stays there: ", r->piece[k].region);
-        char *formula = nh_print_short(r->model->dag, shown(r, &r->piece[k]), r->options.shown);
-        nh_text_add(&line, formula ? formula : "a long formula (--details)");
-        nh_sheet_broken(0, hang, nh_text_string(&line), x->out);
-        nh_free(formula);
-        nh_text_clear(&line);
+        const nh_current *f = &r->piece[k];
+        nh_text words;
+        nh_text_init(&words);
+        put_formula(x, r->count + k + 1, "", nh_print_short(r->model->dag, shown(r, f), r->options.shown),
+                    "a long formula (--details)");
+        nh_text_addf(&words, "Constant only %s. %s%s.", f->region, f->proof.proved ? "Proved" : "", proof_of(r, f));
+        say(x, r->count + k < 9 ? 3 : 4, &words);
     }
-    if (!r->pieces) return;
-    nh_text words;
-    nh_text_init(&words);
-    nh_text_add(&words, r->pieces > 1 ? "These hold" : "This holds");
-    nh_text_add(&words, " in a part of the motions only.");
-    say(x, 0, &words);
 }
 
 static void quantities(screen *x)
