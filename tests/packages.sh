@@ -29,12 +29,25 @@ if [ "$(id -u)" != 0 ]; then
     as_root=sudo
 fi
 log=$(mktemp)
-$as_root apt-get update -q >"$log" 2>&1 && packages=$(missing "$@") &&
-    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $packages >>"$log" 2>&1 && {
-    rm -f "$log"
+done=$(mktemp)
+# What apt does, a line for every tenth step: a silent minute looks like one that hangs.
+told() {
+    tee -a "$log" | awk '
+        /^Hit:|^Get:/ && !/ Packages / { word = "fetched" } /^Get:/ { n++; name = $5 }
+        /^Unpacking/ { word = "unpacked"; n++; name = $2 } /^Setting up/ { word = "set up"; n++; name = $3 }
+        n >= last + 10 { printf "  %s %s\n", word, name; fflush(); last = n }'
+}
+echo "reading the lists of packages"
+{
+    $as_root apt-get update -q 2>&1 && packages=$(missing "$@") &&
+        $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $packages 2>&1 && echo good >"$done"
+} | told
+if [ -s "$done" ]; then
+    rm -f "$log" "$done"
     echo "installed"
     exit 0
-}
+fi
+rm -f "$done"
 tail -n 15 "$log" >&2
 rm -f "$log"
 echo "the packages could not be installed; run:  apt-get update && apt-get install$packages" >&2

@@ -250,7 +250,7 @@ Test(cli_reduce, the_branch_of_the_equations_is_named)
     write_here(&p, "own.yaml", "name: own\nparameters: [{name: c, value: 2}, {name: g, value: 1.5}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                                "lagrangian: (x'^2 + y'^2)/2 - g*y\nconstraints: [\"x'^2 + y'^2 = c^2\"]\ndependent: [y]\n");
     for (int up = 0; up < 2; up++) {
-        finished f = run_expecting(&p, up ? "reduce own.yaml --initial x=0,y=0,x'=0,y'=2" : "reduce own.yaml --initial x=0,y=0,x'=0,y'=-2", 0);
+        finished f = run_expecting(&p, up ? "reduce -v own.yaml --initial x=0,y=0,x'=0,y'=2" : "reduce -v own.yaml --initial x=0,y=0,x'=0,y'=-2", 0);
         cr_expect_not_null(strstr(f.out, up ? "\n  y' = sqrt(c^2 - x'^2)\n" : "\n  y' = -sqrt(c^2 - x'^2)\n"), "%s", f.out);
         cr_expect_not_null(strstr(f.out, up ? "hold on the branch y' > 0," : "hold on the branch y' < 0,"), "%s", f.out);
         finished_clear(&f);

@@ -190,7 +190,7 @@ Test(orientation, analysis_is_written_in_matrix_entries, PLAIN_ONLY)
     text = printed(&p, "$N verify top.yaml --current \"A*(R_zx*p + R_zy*q) + C*R_zz*r\"");
     cr_expect(strstr(text, "Yes"), "%s", text);
     free(text);
-    text = printed(&p, "$N reduce top.yaml");
+    text = printed(&p, "$N reduce -v top.yaml");
     cr_expect(strstr(text, "SO(2)^2") && !strstr(text, "differs by"), "%s", text);
     free(text);
     place_clear(&p);

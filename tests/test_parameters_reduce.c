@@ -74,7 +74,7 @@ Test(parameters_reduce, constants_of_a_group_are_symbols)
 Test(parameters_reduce, brackets_in_words_have_symbols, PLAIN_ONLY)
 {
     place p = place_with_systems();
-    finished f = run(&p, "reduce three_bodies");
+    finished f = run(&p, "reduce -v three_bodies");
     cr_expect_not_null(strstr(f.out, "[e_1,e_4] = -(a + b)/a e_2"), "%s", f.out);
     finished_clear(&f);
     place_clear(&p);
@@ -126,7 +126,7 @@ Test(parameters_reduce, a_density_says_for_which_values)
     cJSON_Delete(json);
     place p = place_make();
     write_here(&p, "own.yaml", knife);
-    finished f = run(&p, "reduce own.yaml --html page.html"), other = run(&p, "reduce own.yaml --set k=2");
+    finished f = run(&p, "reduce -v own.yaml --html page.html"), other = run(&p, "reduce -v own.yaml --set k=2");
     char *page = read_here(&p, "page.html");
     cr_expect_not_null(strstr(f.out, "density = sin(p)\n"), "%s", f.out);
     cr_expect_not_null(strstr(f.out, "the density holds for k = 1"), "%s", f.out);
@@ -143,7 +143,7 @@ Test(parameters_reduce, a_density_says_for_which_values)
 Test(parameters_reduce, a_density_is_found_for_values_far_apart, PLAIN_ONLY)
 {
     place p = place_with_systems();
-    finished f = run(&p, "reduce ball_on_slope --set m=6 --set J=7 --set r=9 --set b=5");
+    finished f = run(&p, "reduce -v ball_on_slope --set m=6 --set J=7 --set r=9 --set b=5");
     cr_expect_not_null(strstr(f.out, "density = cos(theta)*cos(psi)\n"), "%s", f.out);
     finished_clear(&f);
     place_clear(&p);

@@ -45,7 +45,7 @@ static told tell_file(const char *path, size_t settings, const nh_setting *setti
     must(t.r != NULL, &error, path);
     nh_text html;
     nh_text_init(&t.text), nh_text_init(&t.page), nh_text_init(&html);
-    nh_reduction_write(t.r, NULL, (nh_pen_style){.form = NH_PEN_TEXT}, &html);
+    nh_reduction_write(t.r, NULL, (nh_pen_style){.form = NH_PEN_TEXT, .verbose = true}, &html);
     for (const char *line = nh_text_string(&html); *line; line += strcspn(line, "\n"), line += *line == '\n') cr_expect_leq(strcspn(line, "\n"), 80, "%.200s", line);
     nh_text_add(&t.text, flat(nh_text_string(&html)));
     nh_text_clear(&html);

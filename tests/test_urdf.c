@@ -231,7 +231,7 @@ Test(urdf, wheels_and_base_are_named_on_the_command_line_or_in_a_file_beside_it,
     finished_clear(&copy);
     finished_clear(&own);
     write_here(&p, "cart.urdf", massive);
-    finished flying = run_expecting(&p, "reduce cart.urdf --base floating", 0), resting = run_expecting(&p, "export cart.urdf --to c --of equations", 0);
+    finished flying = run_expecting(&p, "reduce -v cart.urdf --base floating", 0), resting = run_expecting(&p, "export cart.urdf --to c --of equations", 0);
     cr_expect_not_null(strstr(flying.out, "7 coordinates"), "%s", flying.out);
     cr_expect_not_null(strstr(resting.out, "cart_1_accelerations"), "%s", resting.out);
     finished_clear(&flying);

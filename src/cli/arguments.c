@@ -195,7 +195,8 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     cli->ask.wheel = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.wheel);
     cli->ask.on = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.on);
     cli->ask.number = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.number);
-    cli->colour = isatty(STDOUT_FILENO) && !getenv("NO_COLOR");
+    cli->terminal = isatty(STDOUT_FILENO);
+    cli->colour = cli->terminal && !getenv("NO_COLOR");
     nh_options_default(&cli->ask.options);
     bool given[owner_count] = {false};
     opterr = 0;

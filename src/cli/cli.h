@@ -31,6 +31,7 @@ typedef struct {
     const char *like;            /* of `new`: the system to begin with, or NULL */
     nh_cli_progress progress;
     bool quiet, verbose, colour, help;
+    bool terminal;               /* standard output is one */
     nh_output_set files;         /* output files that are written and not yet in their places */
     size_t figures;              /* of the page, written to the folder */
     bool drawn;                  /* they were */
@@ -40,6 +41,9 @@ typedef struct {
 
 /* Runs the program; called by its main function.  Returns the exit code.  `team` may be NULL. */
 int nh_cli_main(int argc, char **argv, const nh_team *team);
+
+/* Comma-separated values as a table of 80 columns; `all`: with all rows and columns. */
+void nh_cli_table(const char *csv, bool all, nh_text *out);
 
 /* The version and a fingerprint of the build: two different programs have different ones. */
 const char *nh_cli_program(void);

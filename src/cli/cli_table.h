@@ -71,7 +71,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan linearize export", "set an option that `nhsym explain options` lists")    \
     X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate benchmark reduce classify scan linearize export", "show the current step on standard error")           \
     X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize export new", "-q: no summary and no remarks; tables and code are printed unless a file holds the result") \
-    X('v',             "details",     no_argument,       "",                   "analyze simulate benchmark reduce classify scan linearize", "-v: everything: symmetries, equations, checks, how it was searched") \
+    X('v',             "details",     no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize", "-v: everything: symmetries, equations, checks, how it was searched") \
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize export", "no colours; NO_COLOR does the same")       \
     X('h',             "help",        no_argument,       "",                   "", "-h: list the options of the command")                                               \
     X(opt_version,     "version",     no_argument,       "",                   "", "print the version")

@@ -159,6 +159,17 @@ static const char *table_path(nh_cli *cli, const nh_answer *a)
     return cli->csv && a->kind->table ? cli->csv : cli->folder && name ? nh_cli_in_folder(cli, name) : NULL;
 }
 
+/* A table as it is, or on a terminal for people. */
+static void print_table(const nh_cli *cli, const nh_answer_kind *kind, const nh_text *table)
+{
+    nh_text text;
+    nh_text_init(&text);
+    bool shown = kind->tabular && cli->terminal;
+    if (shown) nh_cli_table(nh_text_string(table), cli->verbose, &text);
+    fputs(shown ? nh_text_string(&text) : nh_text_string(table), stdout);
+    nh_text_clear(&text);
+}
+
 /* Prints a table or code, unless a file has it, otherwise the document in words; then the notes. */
 static bool put_answer(nh_cli *cli, const nh_answer *a, nh_error *error)
 {
@@ -168,7 +179,7 @@ static bool put_answer(nh_cli *cli, const nh_answer *a, nh_error *error)
     bool filed = k->table_name && table_path(cli, a), good = true;
     bool held = filed || (k->table_name && cli->json) || (k->files && cli->folder);
     bool table = k->print && k->print(a, &text), printed = table && !held && !a->failed && nh_cli_delivers(cli);
-    if (printed) fputs(nh_text_string(&text), stdout);
+    if (printed) print_table(cli, k, &text);
     nh_text_clear(&text);
     if (!table) good = put_words(cli, a, error);
     if (k->notes && !cli->quiet) k->notes(a, cli->verbose, printed || filed, &text);

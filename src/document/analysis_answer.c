@@ -7,12 +7,13 @@
 
 #include "document/facts.h"
 #include "document/formula.h"
+#include "document/screen.h"
 #include "document/sheet.h"
 #include "document/symmetry_words.h"
 #include "graph/print.h"
 #include "integrals/real_where.h"
 
-enum { screen_lines = 40, formula_lines = 6, short_lines = 2, few_equations = 8, hang = 4 };
+enum { formula_lines = 6, short_lines = 2, few_equations = 8 };
 
 typedef struct {
     const nh_analysis *r;
@@ -24,51 +25,7 @@ typedef struct {
     nh_formula_list list;   /* of the quantities, with common names for repeated parts */
 } screen;
 
-/* ---- lines ---- */
-
-static void paint(const screen *x, const char *code, const char *text)
-{
-    for (const char *at = text; *at;) {
-        size_t length = strcspn(at, "\n");
-        nh_text_addf(x->out, x->colour ? "\033[%sm" : "%.0s", code);
-        nh_text_add_n(x->out, at, length);
-        nh_text_add(x->out, x->colour ? "\033[0m\n" : "\n");
-        at += length + (at[length] == '\n');
-    }
-}
-
-static void say(const screen *x, size_t indent, nh_text *words)
-{
-    while (words->length && words->data[words->length - 1] == ' ') words->data[--words->length] = 0;
-    if (words->length) nh_sheet_paragraph(indent, indent, nh_text_string(words), x->out);
-    nh_text_clear(words);
-}
-
-static size_t lines_in(const char *text)
-{
-    size_t n = 0;
-    for (; *text; text++) n += *text == '\n';
-    return n;
-}
-
-static void title(const screen *x)
-{
-    const nh_system *s = x->r->system;
-    nh_text line;
-    nh_text_init(&line);
-    size_t column = nh_text_width(s->title);
-    nh_text_addf(&line, x->colour ? "\033[1m%s\033[0m" : "%s", s->title);
-    for (size_t i = 0; i < s->parameters; i++) {
-        char one[120];
-        snprintf(one, sizeof one, "%s = %.6g%s", s->parameter[i].name, s->parameter[i].value,
-                 i + 1 < s->parameters ? "," : "");
-        bool fits = column + nh_text_width(one) + 3 <= 80;
-        nh_text_addf(&line, "%s%s", !fits ? "\n  " : i ? " " : "   ", one);
-        column = (fits ? column + (i ? 1 : 3) : 2) + nh_text_width(one);
-    }
-    nh_text_addf(x->out, "%s\n", nh_text_string(&line));
-    nh_text_clear(&line);
-}
+static void say(const screen *x, size_t indent, nh_text *words) { nh_screen_say(x->out, indent, words); }
 
 /* ---- the headline ---- */
 
@@ -139,13 +96,13 @@ static void put_formula(const screen *x, size_t number, const char *label, char 
     nh_text_addf(&text, "%-*zu%s", number < 10 ? 3 : 4, number, label);
     size_t head = text.length;
     nh_text_add(&text, formula ? formula : instead);
-    nh_sheet_broken(0, hang + 2, nh_text_string(&text), &block);
-    size_t n = lines_in(nh_text_string(&block));
+    nh_sheet_broken(0, NH_SCREEN_HANG + 2, nh_text_string(&text), &block);
+    size_t n = nh_screen_count(nh_text_string(&block));
     if (n > (x->terse ? short_lines : formula_lines)) {
         nh_text_clear(&block);
         nh_text_addf(&block, "%.*sa formula of %zu lines (--details)\n", (int)head, nh_text_string(&text), n);
     }
-    paint(x, "36", nh_text_string(&block));
+    nh_screen_formula(x->out, x->colour, nh_text_string(&block));
     nh_free(formula);
     nh_text_clear(&text);
     nh_text_clear(&block);
@@ -267,8 +224,8 @@ static void put_parts(const screen *x)
         nh_text_init(&block);
         char *value = nh_print_string(d, x->list.part[i].value);
         nh_text_addf(&line, "%s = %s", x->list.part[i].name, value);
-        nh_sheet_broken(hang - 1, 2 * hang, nh_text_string(&line), &block);
-        paint(x, "36", nh_text_string(&block));
+        nh_sheet_broken(NH_SCREEN_HANG - 1, 2 * NH_SCREEN_HANG, nh_text_string(&line), &block);
+        nh_screen_formula(x->out, x->colour, nh_text_string(&block));
         nh_free(value);
         nh_text_clear(&block);
         nh_text_clear(&line);
@@ -375,17 +332,6 @@ static void motion(const screen *x)
     say(x, 0, &words);
 }
 
-static void put_equation(const char *label, nh_dag *d, nh_ex e, nh_text *out)
-{
-    nh_text line;
-    nh_text_init(&line);
-    char *value = nh_print_string(d, e);
-    nh_text_addf(&line, "%s = %s", label, value);
-    nh_sheet_broken(2, 2 + hang, nh_text_string(&line), out);
-    nh_free(value);
-    nh_text_clear(&line);
-}
-
 /* "The constraint  y' = x'*tan(phi)  is nonholonomic." */
 static void put_constraints(const screen *x, nh_text *out)
 {
@@ -413,13 +359,13 @@ static void equations(const screen *x, size_t room)
     nh_text_init(&block);
     put_constraints(x, &block);
     for (size_t s = 0; s < o->m && o->chart->quasi && !o->framed; s++)
-        put_equation(nh_arena_printf(o->arena, "%s'", o->system->coordinate[s].name), o->dag, o->rho[s], &block);
+        nh_screen_equation(nh_arena_printf(o->arena, "%s'", o->system->coordinate[s].name), o->dag, o->rho[s], &block);
     for (size_t i = 0; i < o->n; i++) {
         nh_ex a = o->chart->roots ? nh_chart_shown(o->chart, o->a[i]) : o->a[i];
-        put_equation(nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i])), o->dag,
+        nh_screen_equation(nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i])), o->dag,
                      nh_formula_shortened(r->analysis, o->dag, a), &block);
     }
-    size_t n = lines_in(nh_text_string(&block));
+    size_t n = nh_screen_count(nh_text_string(&block));
     bool fits = n <= few_equations || n <= room;
     if (fits) nh_text_addf(x->out, "\n%s", nh_text_string(&block));
     nh_text_clear(&block);
@@ -447,7 +393,7 @@ static void write(screen *x)
 {
     enum { tail = 3 };
     const nh_analysis *r = x->r;
-    title(x);
+    nh_screen_title(r->system, x->colour, x->out);
     headline(x);
     quantities(x);
     nh_text_add(x->out, "\n");
@@ -456,8 +402,8 @@ static void write(screen *x)
     motion(x);
     for (size_t i = 0; i < r->warnings; i++)
         nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), x->out);
-    size_t n = lines_in(nh_text_string(x->out)) + tail + 1;
-    equations(x, n < screen_lines ? screen_lines - n : 0);
+    size_t n = nh_screen_count(nh_text_string(x->out)) + tail + 1;
+    equations(x, n < NH_SCREEN_LINES ? NH_SCREEN_LINES - n : 0);
     more(x);
 }
 
@@ -472,7 +418,7 @@ void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
         x.all_proved = x.all_proved && r->found[k].proof.proved && !r->found[k].series;
     }
     write(&x);
-    if (lines_in(nh_text_string(&text)) > screen_lines) {
+    if (nh_screen_count(nh_text_string(&text)) > NH_SCREEN_LINES) {
         nh_text_clear(&text);
         x.terse = true;
         write(&x);

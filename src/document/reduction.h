@@ -45,6 +45,8 @@ const char *nh_reduction_stage_holds(const nh_reduction *reduction, const nh_red
 bool nh_reduction_instead(const nh_reduction *reduction, size_t stage);
 /* Is it a second stage without a first one, for a system without constraints? */
 bool nh_reduction_on_levels(const nh_reduction_stage *stage);
+/* Why the symmetries were not counted. */
+const char *nh_reduction_not_counted(const nh_kinetic *kinetic);
 /* "; globally: SO(2)^3 of dimension 3" where not all symmetries are known to be global, otherwise "". */
 const char *nh_reduction_globally(const nh_reduction *reduction, const nh_group *group);
 /* Why the energy of a stage's motion was not followed; NULL where it was. */

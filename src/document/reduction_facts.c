@@ -5,6 +5,14 @@
 
 #include "document/facts.h"
 
+const char *nh_reduction_not_counted(const nh_kinetic *k)
+{
+    if (!k->quadratic) return "the Lagrangian is not quadratic in the velocities";
+    if (!k->autonomous) return "time occurs in the Lagrangian or in a constraint";
+    if (!k->affine) return "a constraint is not linear in the velocities";
+    return k->invertible ? "time occurs in a force" : "not all velocities have inertia";
+}
+
 bool nh_reduction_on_levels(const nh_reduction_stage *s)
 {
     return s->kind == NH_STAGE_SECOND && s->second->first->d == 0;

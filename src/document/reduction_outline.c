@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "document/facts.h"
+#include "document/reduction_answer.h"
 #include "document/reduction_internal.h"
 #include "document/reduction_sheet.h"
 
@@ -81,19 +82,11 @@ static void algebra(nh_pen *p, const nh_reduction *r, const nh_group *g)
                 a->chaplygin ? ": a Chaplygin system" : "");
 }
 
-static const char *not_counted(const nh_kinetic *k)
-{
-    if (!k->quadratic) return "the Lagrangian is not quadratic in the velocities";
-    if (!k->autonomous) return "time occurs in the Lagrangian or in a constraint";
-    if (!k->affine) return "a constraint is not linear in the velocities";
-    return k->invertible ? "time occurs in a force" : "not all velocities have inertia";
-}
-
 static void counted(nh_pen *p, const nh_reduction *r, const nh_group *g)
 {
     if (!g->jets && !g->given)
         nh_pen_fact(p, "Not counted", "%s; there may be more symmetries than the search for closed forms found",
-                    not_counted(r->kinetic));
+                    nh_reduction_not_counted(r->kinetic));
     if (!g->jets) return;
     nh_pen_fact_begin(p, "Counted");
     nh_pen_say(p,
@@ -326,6 +319,10 @@ static void answer(nh_pen *p, const nh_reduction *r)
 
 void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style style, nh_text *out)
 {
+    if (style.form == NH_PEN_TEXT && !style.verbose && !(r->stages && r->stage[0].theory)) {
+        nh_reduction_write_answer(r, style.colour, out);
+        return;
+    }
     nh_pen pen, *p = &pen;
     nh_pen_subject subject = {
         .system = r->system, .dag = r->kinetic->dag, .shown = run ? run->shown : r->options.shown};

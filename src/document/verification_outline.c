@@ -3,8 +3,13 @@
 
 #include "base/memory.h"
 #include "document/facts.h"
+#include "document/screen.h"
+#include "document/sheet.h"
+#include "document/symmetry_words.h"
 #include "document/verification.h"
 #include "exact/normal.h"
+#include "graph/measure.h"
+#include "integrals/prove.h"
 
 static bool of_field(const nh_verification *v) { return v->form || v->of_equations; }
 
@@ -129,8 +134,78 @@ static void question(nh_pen *p, const nh_verification *v)
     nh_pen_close(p, NH_PEN_FACTS);
 }
 
+/* ---- of a current, on a terminal ---- */
+
+/* d/dt of the current along motions. */
+static nh_ex rate(const nh_verification *v)
+{
+    const nh_model *o = v->model;
+    nh_ex *term = nh_alloc_array(1 + o->m + o->n, sizeof *term), sum = nh_int(o->dag, 0);
+    nh_rate_terms(o, v->current, term);
+    for (size_t i = 0; i < 1 + o->m + o->n; i++) sum = nh_add(o->dag, sum, term[i]);
+    nh_free(term);
+    return nh_simplify_short(o->dag, sum, 0);
+}
+
+static void put_yes(const nh_verification *v, nh_text *out)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_text_add(&words, "Yes. This is conserved");
+    if (v->proof.proved) nh_text_addf(&words, ": proved%s", nh_facts_holds(v->model, &v->proof, true));
+    else
+        nh_text_addf(&words, " to %.6g digits%s", floor(v->proof.digits),
+                     v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
+    nh_text_addf(&words, "%s%s%s.", nh_verification_branches(v), v->region ? ", " : "", v->region ? v->region : "");
+    if (v->trivial) nh_text_add(&words, " It is the same number at all states.");
+    if (v->has_symmetry && !v->trivial) {
+        nh_text_add(&words, " It comes from ");
+        nh_symmetry_words(v->model, &v->symmetry, &words);
+        nh_text_add(&words, ".");
+    }
+    nh_screen_say(out, 0, &words);
+}
+
+/* A state at which it changes, and its rate in general where that is short. */
+static void put_no(const nh_verification *v, nh_text *out)
+{
+    enum { short_rate = 120 };
+    const nh_model *o = v->model;
+    nh_text words;
+    nh_text_init(&words);
+    if (v->region) nh_text_addf(&words, "No. This is conserved only in a region: %s.", v->region);
+    else nh_text_add(&words, "No. This changes along motions");
+    if (v->has_counterexample && !v->region) {
+        nh_text_add(&words, ", for example at ");
+        for (size_t j = 0; j < o->width; j++)
+            nh_text_addf(&words, "%s%s = %.5g", j ? ", " : "", nh_name_of(o->dag, o->chart->symbol[j]),
+                         v->counterexample[j]);
+        nh_text_addf(&words, ": its rate there is %.4g, not 0.", v->rate);
+    } else if (!v->region) {
+        nh_text_add(&words, ".");
+    }
+    nh_screen_say(out, 0, &words);
+    nh_ex general = o->chart->implicit || v->region ? 0 : rate(v);
+    if (general && nh_complexity(o->dag, general) <= short_rate) {
+        nh_text_add(out, "Its rate in general:\n");
+        nh_screen_equation("rate", o->dag, general, out);
+    }
+}
+
+static void first_screen(const nh_verification *v, bool colour, nh_text *out)
+{
+    nh_screen_title(v->system, colour, out);
+    if (v->conserved) put_yes(v, out);
+    else put_no(v, out);
+    nh_text_add(out, "\nMore: --details   symmetry, residual, state\n");
+}
+
 void nh_verification_write(const nh_verification *v, const nh_run *run, nh_pen_style style, nh_text *out)
 {
+    if (style.form == NH_PEN_TEXT && !style.verbose && !of_field(v) && !v->theory) {
+        first_screen(v, style.colour, out);
+        return;
+    }
     nh_pen pen, *p = &pen;
     bool shown = v->has_symmetry && !v->trivial;
     nh_pen_subject subject = {

@@ -29,6 +29,7 @@ typedef struct {
     char *(*json)(const nh_answer *answer);                                   /* a heap string (nh_free) */
     /* A table or code, which is printed in the place of the document; false: this request wants the document. */
     bool (*print)(const nh_answer *answer, nh_text *out);
+    bool tabular; /* what it prints is a table, which a terminal shows with less */
     /* Comma-separated values, and their file name in the folder of -o, where they are always written. */
     void (*table)(const nh_answer *answer, nh_text *csv);
     const char *table_name;

@@ -281,6 +281,6 @@ static int simulation_code(const nh_answer *a, nh_error *error)
 
 const nh_answer_kind nh_answer_simulate = {
     .name = "simulate", .analysis = true, .check = simulate_check, .create = simulate, .free = simulation_free,
-    .write = simulation_write, .json = simulation_json, .print = simulation_print, .table = simulation_table,
+    .write = simulation_write, .json = simulation_json, .print = simulation_print, .tabular = true, .table = simulation_table,
     .table_name = "motion.csv", .files = simulation_files, .picture = simulation_picture, .notes = simulation_notes,
     .code = simulation_code};

@@ -248,6 +248,7 @@ bool nh_ordinary_ask_values(nh_deck *deck, const nh_deck_node *list, const nh_de
 typedef struct {
     nh_text names;   /* each with a blank behind it */
     bool velocities; /* names with a prime are looked for, others else */
+    bool hidden;     /* a part is of a file whose text is in no message */
     nh_ordinary_known *is_known;
     void *context;
 } search;
@@ -296,6 +297,7 @@ static void look_everywhere(search *s, const nh_deck_node *root)
             bool named = k == 0 || k == 3;
             if (item->kind == NH_DECK_MAP && item->count == 1) item = item->item[0], named = false;
             if (item->kind != NH_DECK_SCALAR) continue;
+            s->hidden |= item->deck && item->deck->hidden;
             const char *equal = named ? strchr(item->text, '=') : NULL;
             look_into(s, equal ? equal + 1 : item->text);
         }
@@ -335,8 +337,9 @@ bool nh_ordinary_hint_declare(const nh_deck *deck, nh_ordinary_known *is_known, 
         if (map) nh_text_addf(&line, "%s: %s", name, value);
         else nh_text_addf(&line, "`%s{name: %s, value: %s}`", dash, name, value);
     }
-    error->hint[0] = 0;
-    if (!line.length) nh_error_hint(error, "declare it under parameters, coordinates or definitions");
+    if (!s.hidden) error->hint[0] = 0; /* of a file that is shown in no message the names are not, either */
+    if (s.hidden) nh_text_clear(&line);
+    else if (!line.length) nh_error_hint(error, "declare it under parameters, coordinates or definitions");
     else if (!own) nh_error_hint(error, "declare it, for instance `parameters: {%s}`", nh_text_string(&line));
     else if (map) nh_error_hint(error, "declare it, for instance under `parameters:` by `%s`", nh_text_string(&line));
     else nh_error_hint(error, "declare it, for instance under `parameters:` by %s", nh_text_string(&line));

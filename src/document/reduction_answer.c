@@ -1,0 +1,168 @@
+#include "document/reduction_answer.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "document/facts.h"
+#include "document/formula.h"
+#include "document/screen.h"
+#include "document/sheet.h"
+#include "exact/normal.h"
+#include "graph/print.h"
+
+/* "-y d/dx + x d/dy + d/dtheta" */
+static void put_field(const nh_kinetic *k, const nh_ex *component, nh_text *out)
+{
+    bool any = false;
+    for (size_t s = 0; s < k->m; s++) {
+        if (nh_is_zero(k->dag, component[s])) continue;
+        char *text = nh_print_string(k->dag, component[s]);
+        bool minus = text[0] == '-' && !nh_formula_is_sum(text), sum = nh_formula_is_sum(text);
+        const char *rest = minus ? text + 1 : text;
+        nh_text_add(out, any ? (minus ? " - " : " + ") : minus ? "-" : "");
+        if (strcmp(rest, "1")) nh_text_addf(out, sum ? "(%s) " : "%s ", rest);
+        nh_text_addf(out, "d/d%s", k->name[s]);
+        nh_free(text);
+        any = true;
+    }
+}
+
+static void put_fields(const nh_action *a, nh_text *out)
+{
+    for (size_t i = 0; i < a->d; i++) {
+        nh_text_add(out, i ? ",  " : "");
+        put_field(a->kinetic, a->generator[i].component, out);
+    }
+}
+
+/* How sure the group is, in one sentence. */
+static void put_certainty(const nh_reduction *r, const nh_group *g, nh_text *out)
+{
+    bool proved = true;
+    for (size_t a = 0; a < g->action.d; a++)
+        proved &= nh_generator_proof(r->kinetic, &g->action.generator[a]).all_parameters;
+    if (proved) nh_text_add(out, g->action.d == 1 ? "It is proved" : "Each is proved");
+    else nh_text_add(out, "Not each is proved for all parameters (--details)");
+    if (g->given) nh_text_add(out, ".");
+    else if (!g->jets)
+        nh_text_addf(out, "; there may be more, because they could not be counted: %s.",
+                     nh_reduction_not_counted(r->kinetic));
+    else if (g->missing)
+        nh_text_addf(out, "; a count shows %zu more, for which no closed form was found.", g->missing);
+    else
+        nh_text_addf(out, "%s a count shows that there are no others%s.", proved ? ", and" : ";",
+                     g->jets->exact ? "" : ", by numbers");
+}
+
+static void group(const nh_reduction *r, nh_text *out)
+{
+    const nh_group *g = r->all ? r->all : r->group;
+    size_t dimension = g->action.d + g->missing;
+    nh_text words;
+    nh_text_init(&words);
+    nh_text_addf(&words, "%zu coordinate%s, %zu constraint%s. ", r->kinetic->m, r->kinetic->m == 1 ? "" : "s",
+                 r->kinetic->f, r->kinetic->f == 1 ? "" : "s");
+    if (!dimension) {
+        nh_text_add(&words, "No symmetry of kinetic energy, potential and constraints together was found. ");
+        if (!g->jets) nh_text_addf(&words, "They could not be counted: %s.", nh_reduction_not_counted(r->kinetic));
+        nh_screen_say(out, 0, &words);
+        return;
+    }
+    nh_text_addf(&words, "The %s %s%s, of dimension %zu%s.", g->given ? "given group is" : "symmetries form the group",
+                 g->name, g->local && !g->given ? " (locally)" : "", dimension, nh_reduction_globally(r, g));
+    nh_screen_say(out, 0, &words);
+    if (g->action.d) {
+        nh_text_init(&words);
+        put_fields(&g->action, &words);
+        nh_sheet_paragraph(2, NH_SCREEN_HANG, nh_text_string(&words), out);
+        nh_text_clear(&words);
+    }
+    nh_text_init(&words);
+    put_certainty(r, g, &words);
+    nh_screen_say(out, 0, &words);
+}
+
+/* "stage 1   Chaplygin reduction by SE(2)" and what is left */
+static void stages(const nh_reduction *r, nh_text *out)
+{
+    nh_text_add(out, "\n");
+    for (size_t i = 0; i < r->stages; i++) {
+        const nh_reduction_stage *s = &r->stage[i];
+        nh_text words;
+        nh_text_init(&words);
+        nh_text_addf(&words, "%s: %s %s.", nh_reduction_stage_title(r, i), nh_reduction_stage_kind(s), s->group);
+        nh_screen_say(out, 0, &words);
+        nh_text_init(&words);
+        nh_text_add(&words, "Left: ");
+        for (size_t j = 0; j < s->shown->n; j++)
+            nh_text_addf(&words, "%s%s", j ? ", " : "", nh_name_of(r->kinetic->dag, s->shown->x[j]));
+        nh_text_add(&words, s->shown->n ? "." : "a point: only the velocities of the group move.");
+        nh_screen_say(out, 2, &words);
+    }
+    if (!r->stages) nh_text_add(out, "No reduction was possible.\n");
+}
+
+static void momenta(const nh_reduction *r, bool colour, nh_text *out)
+{
+    enum { most_lines = 4 };
+    if (!r->momenta.count) return;
+    nh_text_add(out, "\nConserved\n");
+    for (size_t i = 0; i < r->momenta.count; i++) {
+        const nh_momentum *m = &r->momenta.momentum[i];
+        nh_text block, words;
+        nh_text_init(&block);
+        nh_text_init(&words);
+        nh_screen_equation(nh_reduction_momentum_name(r, m), r->kinetic->dag, m->value, &block);
+        if (nh_screen_count(nh_text_string(&block)) > most_lines) {
+            nh_text_clear(&block);
+            nh_text_addf(&block, "  %s: a long formula (--details)\n", nh_reduction_momentum_name(r, m));
+        }
+        nh_screen_formula(out, colour, nh_text_string(&block));
+        nh_text_clear(&block);
+        nh_text_addf(&words, "%s ", nh_reduction_momentum_kind(m));
+        put_field(r->kinetic, m->field, &words);
+        nh_text_addf(&words, "; %s%s%s.", m->proof.proved ? "proved" : "to rounding",
+                     m->proof.all_parameters ? "" : nh_facts_holds(r->kinetic->model, &m->proof, false),
+                     m->local ? "; not the same after a full turn of an angle" : "");
+        nh_screen_say(out, NH_SCREEN_HANG, &words);
+    }
+}
+
+/* How the printed equations and the reduced motions compare with the full ones: the worst of all stages. */
+static void check(const nh_reduction *r, nh_text *out)
+{
+    double printed = -1, apart = -1, energy = -1, reached = INFINITY;
+    for (size_t i = 0; i < r->stages; i++) {
+        const nh_reduction_stage *s = &r->stage[i];
+        if (s->printed_states) printed = fmax(printed, s->printed);
+        if (!s->compared) continue;
+        apart = fmax(apart, s->agreement);
+        reached = fmin(reached, s->reached);
+        energy = fmax(energy, s->energy_drift);
+    }
+    nh_text words;
+    nh_text_init(&words);
+    if (printed >= 0)
+        nh_text_addf(&words, "The equations as printed agree with the true accelerations to %.2g. ", printed);
+    if (apart >= 0)
+        nh_text_addf(&words, "Put together again, the reduced motions differ from the full one by %.2g up to t = %.4g. ",
+                     apart, reached);
+    if (energy >= 0) nh_text_addf(&words, "The energy changes by %.2g.", energy);
+    if (words.length) nh_text_add(out, "\n");
+    nh_screen_say(out, 0, &words);
+}
+
+void nh_reduction_write_answer(const nh_reduction *r, bool colour, nh_text *out)
+{
+    nh_screen_title(r->system, colour, out);
+    group(r, out);
+    stages(r, out);
+    momenta(r, colour, out);
+    check(r, out);
+    for (size_t i = 0; i < r->warnings; i++)
+        nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), out);
+    for (size_t i = 0; i < r->unused_count; i++)
+        nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Not used: %s: %s", r->unused[i].what, r->unused[i].why), out);
+    nh_text_add(out, "\nMore: --details   the reduced equations, brackets, conditions, measures\n"
+                     "      --to c      the reduced equations as code (python, sympy, matlab, latex)\n");
+}
