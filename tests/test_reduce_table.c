@@ -242,6 +242,27 @@ Test(reduce_table, small_forces_conserve_nothing)
     }
 }
 
+/* The part of a local group that is single-valued on all angles: translations of an angle, not turns that mix it with others. */
+Test(reduce_table, what_is_single_valued)
+{
+    static const struct {
+        known system;
+        const char *global;
+    } known_ones[] = {
+        {{"a:angle b:angle", "(a'^2 + b'^2)/2", NULL, "", 0, 0, UNTESTED, false, NULL}, "SO(2)^2"},
+        {{"x f:angle", "(x'^2 + f'^2)/2", NULL, "", 0, 0, UNTESTED, false, NULL}, "SO(2) x R"},
+        {{"x y f:angle", POINT2 " + f'^2/2", NULL, "", 0, 0, UNTESTED, false, NULL}, "SE(2) x SO(2)"},
+        {{"r f:angle", "(r'^2 + r^2*f'^2/4)/2", "domain: {r: [1, 2]}", "", 0, 0, UNTESTED, false, NULL}, "SO(2)"},
+        {{"r f:angle", "(r'^2 + r^2*f'^2)/2", "domain: {r: [1, 2]}", "", 0, 0, UNTESTED, false, NULL}, NULL},
+    };
+    for (size_t i = 0; i < sizeof known_ones / sizeof *known_ones; i++) {
+        nh_reduction *r = reduced(&known_ones[i].system);
+        const nh_group *g = r->all ? r->all : r->group;
+        cr_expect(known_ones[i].global ? g->local && g->global_name && !strcmp(g->global_name, known_ones[i].global) : !g->local, "%zu: %s", i, g->global_name ? g->global_name : "none");
+        nh_reduction_free(r);
+    }
+}
+
 /* What is the momentum of a symmetry is called that, and what others and constraints determine is not listed: a group
  * that is a part of the whole, generators whose fields are dependent on leaves, symmetries along which reactions do no
  * work. */
