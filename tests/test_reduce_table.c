@@ -31,6 +31,8 @@ typedef struct {
 #define SPHERE "(a'^2 + sin(a)^2*b'^2)/2"
 
 #define SIX "(a'^2 + b'^2 + c'^2 + d'^2 + e'^2 + f'^2)/2"
+#define TOP(I, K) "(" I "*(h'^2 + sin(h)^2*p'^2) + " K "*(s' + p'*cos(h))^2)/2"
+#define UPRIGHT "domain: {h: [0.5, 2.5]}"
 #define RING5 "(a'^2 + b'^2 + c'^2 + d'^2 + e'^2)/2 - ((a - b)^2 + (b - c)^2 + (c - d)^2 + (d - e)^2 + (e - a)^2)/2"
 /* in the plane, of masses 1, 2, 3, 4: the centre of mass, and all about it, may be turned each for itself */
 #define PAIR(x, y, u, w) "((" x " - " u ")^2 + (" y " - " w ")^2)^2"
@@ -131,6 +133,21 @@ static const known table[] = {
     {"x y u w", POINT2 " + (u'^2 + w'^2)/2 - (x + u)^2 - (y + w)^2", NULL, "SE(2) x SO(2)", 4, 4, UNTESTED, false, NULL},
     {"x y z", POINT3 " - (x^2 + y^2)/2", NULL, "SO(2) x R", 2, 2, UNTESTED, false, NULL},
     {"x y z", POINT3 " - (x - z)^2 - (y - 2*z)^2", NULL, "R", 1, 1, UNTESTED, false, NULL},
+    /* tops, arms, wheels, and spaces of the literature */
+    {"p:angle h:angle s:angle", TOP("1", "2") " - cos(h)", UPRIGHT, "SO(2)^2", 2, 2, UNTESTED, false, NULL},
+    {"p:angle h:angle s:angle", TOP("1", "2") " - 1e-9*cos(h)", UPRIGHT, "SO(2)^2", 2, 2, UNTESTED, false, NULL},
+    {"p:angle h:angle s:angle", TOP("1", "2"), UPRIGHT, "SO(3) x SO(2)", 4, 4, UNTESTED, false, NULL},
+    {"p:angle h:angle s:angle", TOP("1", "(1 + 1e-9)"), UPRIGHT, "SO(3) x SO(2)", 4, 4, UNTESTED, false, NULL},
+    {"p:angle h:angle s:angle", TOP("1", "1"), UPRIGHT, "SO(3)^2", 6, 6, UNTESTED, false, NULL},
+    {"a:angle b:angle", "a'^2 + b'^2/2 + a'*b'*cos(a - b)", NULL, "SO(2)", 1, 1, UNTESTED, false, NULL},
+    {"a:angle b:angle", "a'^2 + b'^2/2 + a'*b'*cos(a - b) + 1e-10*cos(a)", NULL, "trivial", 0, 0, UNTESTED, false, NULL},
+    {"x a:angle", "x'^2 + a'^2/2 + x'*a'*cos(a) - cos(a)", NULL, "R", 1, 1, UNTESTED, false, NULL},
+    {"x y z", "(x'^2 + y'^2 + (z' + (x*y' - y*x')/2)^2)/2", NULL, "(Heisenberg x| SO(2))", 4, 4, UNTESTED, false, NULL},
+    {"x y h:angle s:angle", POINT2 " + h'^2/4 + s'^2/3", "constraints: [\"x' = s'*cos(h)\", \"y' = s'*sin(h)\"]", "SE(2) x SO(2)", 4, 4, A_MEASURE, false, NULL},
+    {"x y z", POINT3, "constraints: [\"z' = x*y' - y*x'\"]", "SO(2) x R", 2, 2, A_MEASURE, false, NULL},
+    {"s f:angle", "(cosh(s)^2*f'^2 - s'^2)/2", "domain: {s: [-1, 1]}", "SL(2,R)", 3, 3, UNTESTED, false, NULL},
+    {"s:angle r", "(r'^2 - cosh(r)^2*s'^2)/2", "domain: {r: [-1, 1]}", "SL(2,R)", 3, 3, UNTESTED, false, NULL},
+    {"s r f:angle", "(r'^2/(1 - 2/r) - (1 - 2/r)*s'^2 + r^2*f'^2)/2", "domain: {r: [3, 6]}", "SO(2) x R", 2, 2, UNTESTED, false, NULL},
     /* slices at poles of the coordinates */
     {"a:angle b:angle", SPHERE, "domain: {a: [0.4, 2.6]}", "SO(2)", 1, 1, UNTESTED, false, "a=cos(b), b=-cos(a)*sin(b)/sin(a)"},
     {"a:angle b:angle", SPHERE, "domain: {a: [0.4, 2.6]}", "SO(2)", 1, 1, UNTESTED, false, "a=sin(b), b=cos(a)*cos(b)/sin(a)"},
