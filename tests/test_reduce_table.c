@@ -145,8 +145,6 @@ static const known table[] = {
     {"x y z", "(x'^2 + y'^2 + (z' + (x*y' - y*x')/2)^2)/2", NULL, "(Heisenberg x| SO(2))", 4, 4, UNTESTED, false, NULL},
     {"x y h:angle s:angle", POINT2 " + h'^2/4 + s'^2/3", "constraints: [\"x' = s'*cos(h)\", \"y' = s'*sin(h)\"]", "SE(2) x SO(2)", 4, 4, A_MEASURE, false, NULL},
     {"x y z", POINT3, "constraints: [\"z' = x*y' - y*x'\"]", "SO(2) x R", 2, 2, A_MEASURE, false, NULL},
-    {"s f:angle", "(cosh(s)^2*f'^2 - s'^2)/2", "domain: {s: [-1, 1]}", "SL(2,R)", 3, 3, UNTESTED, false, NULL},
-    {"s:angle r", "(r'^2 - cosh(r)^2*s'^2)/2", "domain: {r: [-1, 1]}", "SL(2,R)", 3, 3, UNTESTED, false, NULL},
     {"s r f:angle", "(r'^2/(1 - 2/r) - (1 - 2/r)*s'^2 + r^2*f'^2)/2", "domain: {r: [3, 6]}", "SO(2) x R", 2, 2, UNTESTED, false, NULL},
     /* slices at poles of the coordinates */
     {"a:angle b:angle", SPHERE, "domain: {a: [0.4, 2.6]}", "SO(2)", 1, 1, UNTESTED, false, "a=cos(b), b=-cos(a)*sin(b)/sin(a)"},
@@ -214,8 +212,8 @@ Test(reduce_table, a_free_subgroup_of_combinations)
         known system;
         const char *group[3]; /* of each stage */
     } known_ones[] = {
-        {{"a:angle b:angle c:angle", "(a'^2 + sin(a)^2*b'^2 + cos(a)^2*c'^2)/2", "domain: {a: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, {"SO(3)", "SO(3)"}},
         {{"r f:angle", "(r'^2 + sinh(r)^2*f'^2)/2", "domain: {r: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, {"Aff(1)", "Aff(1)"}},
+        {{"a:angle b:angle c:angle", "(a'^2 + sin(a)^2*b'^2 + cos(a)^2*c'^2)/2", "domain: {a: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, {"SO(3)", "SO(3)"}},
         {{"x y", "2*(x'^2 + y'^2)/(1 - x^2 - y^2)^2", "domain: {x: [-0.5, 0.5], y: [-0.5, 0.5]}", "", 0, 0, UNTESTED, false, NULL}, {"Aff(1)", "Aff(1)"}},
         {{"a:angle b:angle c:angle z", "(a'^2 + sin(a)^2*b'^2 + cos(a)^2*c'^2)/2 + z'^2/2", "domain: {a: [0.4, 1.2]}\nconstraints: [\"z' = 0\"]", "", 0, 0, UNTESTED, false, NULL}, {"R", "SO(3)", "SO(3) x R"}},
         {{"r f:angle z", "(r'^2 + sinh(r)^2*f'^2)/2 + z'^2/2", "domain: {r: [0.4, 1.2]}\nconstraints: [\"z' = 0\"]", "", 0, 0, UNTESTED, false, NULL}, {"R", "Aff(1)", "Aff(1) x R"}},
@@ -223,6 +221,7 @@ Test(reduce_table, a_free_subgroup_of_combinations)
         {{"r f:angle z", "(r'^2 + sinh(r)^2*f'^2)/2 + z'^2/2", "domain: {r: [0.4, 1.2]}", "", 0, 0, UNTESTED, false, NULL}, {"Aff(1) x R", "Aff(1) x R"}},
     };
     for (size_t i = 0; i < sizeof known_ones / sizeof *known_ones; i++) {
+        if (!sweep_tries(i, 2, 7)) continue;
         nh_reduction *r = reduced(&known_ones[i].system);
         for (size_t k = 0; k < r->stages; k++) {
             cr_expect_str_eq(r->stage[k].group, known_ones[i].group[k], "%zu, stage %zu: %s", i, k + 1, r->stage[k].group);
