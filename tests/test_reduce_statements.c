@@ -409,3 +409,65 @@ Test(reduce_statements, what_is_not_counted_may_be_incomplete)
         done(&t);
     }
 }
+
+/* The fields' sum that a line "[e_1,e_4] = 2 e_2 - e_3" names, at a place. */
+static void named_sum(const nh_action *g, const char *text, const double *E, double *out)
+{
+    size_t m = g->kinetic->m;
+    memset(out, 0, m * sizeof *out);
+    for (bool more = *text; more; more = *text == '+' || *text == '-') {
+        double sign = 1, factor = 1, below = 1;
+        for (; *text == ' ' || *text == '+' || *text == '-'; text++)
+            if (*text == '-') sign = -sign;
+        if (*text != 'e') factor = strtod(text, (char **)&text);
+        if (*text == '/') below = strtod(text + 1, (char **)&text);
+        text += strspn(text, " ");
+        cr_assert(!strncmp(text, "e_", 2), "an unknown term: %.40s", text);
+        size_t k = strtoul(text + 2, (char **)&text, 10) - 1;
+        for (size_t s = 0; s < m; s++) out[s] += sign * factor / below * E[s + k * m];
+        text += strspn(text, " ");
+    }
+}
+
+/* The brackets that are printed are those of the fields, and minus the constants in JSON: compared at places. */
+Test(reduce_statements, brackets_are_those_of_the_fields)
+{
+    static const char *const systems[] = {
+        "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n",
+        "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n",
+        "coordinates: [{name: a, type: angle}, {name: b, type: angle}]\nlagrangian: (a'^2 + sin(a)^2*b'^2)/2\ndomain: {a: [0.4, 2.6]}\n",
+        "coordinates: [x, s]\nlagrangian: (x'^2 - s'^2)/2\n",
+        "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/(2*y^2)\ndomain: {y: [0.4, 1.2]}\n",
+        "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + (z' - x*y')^2)/2\n",
+        "coordinates: [x, y, {name: h, type: angle}]\nlagrangian: (x'^2 + y'^2 + h'^2)/2\nconstraints: [\"y'*cos(h) = x'*sin(h)\"]\n",
+    };
+    for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
+        char file[300];
+        snprintf(file, sizeof file, "name: own\n%s", systems[i]);
+        told t = tell(file);
+        const nh_group *group = t.r->all ? t.r->all : t.r->group;
+        const nh_action *g = &group->action;
+        const nh_kinetic *k = g->kinetic;
+        size_t m = k->m, seen = 0;
+        nh_ex bracket[12];
+        double E[120], want[12], got[12];
+        nh_action_values(g, k->place, E);
+        for (size_t a = 0; a < g->d; a++)
+            for (size_t b = a + 1; b < g->d; b++) {
+                char label[80];
+                snprintf(label, sizeof label, "[e_%zu,e_%zu] = ", a + 1, b + 1);
+                const char *line = strstr(TEXT(t), label);
+                nh_field_bracket(k, g->generator[a].component, g->generator[b].component, bracket);
+                nh_kinetic_values(k, m, bracket, k->place, want);
+                named_sum(g, line ? line + strlen(label) : "", E, got);
+                seen += line != NULL;
+                for (size_t s = 0; s < m; s++) {
+                    double from_constants = 0;
+                    for (size_t c = 0; c < g->d; c++) from_constants -= g->algebra.c[(a * g->d + b) * g->d + c] * E[s + c * m];
+                    cr_expect(fabs(got[s] - want[s]) < 1e-9 && fabs(from_constants - want[s]) < 1e-9, "%s[e_%zu,e_%zu], %zu: %g, %g, printed %g", file, a + 1, b + 1, s, want[s], from_constants, got[s]);
+                }
+            }
+        cr_expect(seen > 0, "no bracket is printed\n%s", file);
+        done(&t);
+    }
+}

@@ -10,6 +10,7 @@ static nh_sheet *sheet_of(const nh_reduction *r)
     return s;
 }
 
+/* Those of the fields, minus the constants of the Lie algebra. */
 static void put_brackets(nh_sheet *s, const nh_action *g)
 {
     nh_dag *d = g->kinetic->dag;
@@ -26,7 +27,7 @@ static void put_brackets(nh_sheet *s, const nh_action *g)
                 if (nh_is_zero(d, c)) continue;
                 if (!any) nh_sheet_sum(s, "", nh_sheet_label(s, "[e_{%zu},e_{%zu}]", a + 1, b + 1));
                 any = true;
-                nh_sheet_add(s, c, nh_sheet_label(s, "e_{%zu}", k + 1));
+                nh_sheet_add(s, nh_neg(d, c), nh_sheet_label(s, "e_{%zu}", k + 1));
             }
         }
 }
@@ -38,8 +39,8 @@ nh_sheet *nh_reduction_brackets_sheet(const nh_reduction *r, const nh_action *g)
     put_brackets(s, g);
     s->section->words =
         s->section->lines
-            ? "Brackets of the Lie algebra, $[e_{a},e_{b}]=C^{c}_{a,b} e_{c}$: minus the brackets of the fields. "
-              "Those that are not listed vanish."
+            ? "Brackets of the fields, $[e_{a},e_{b}]=-C^{c}_{a,b} e_{c}$ with the structure constants $C$ of the Lie "
+              "algebra of the group. Those that are not listed vanish."
             : "All brackets vanish.";
     return s;
 }

@@ -13,6 +13,8 @@ static const nh_glossary_entry entries[] = {
     {"constraint semispray", "Gamma, the vector field of the equations of motion on the constraint submanifold."},
     {"Gamma", "The constraint semispray; along it a function has the rate of change Gamma(f)."},
     {"bracket", "[X,Y], the field along which a function f has the rate of change X(Y(f)) - Y(X(f))."},
+    {"structure constants", "C of the Lie algebra of the group that nhsym reduce divides out, with [e_a,e_b] = "
+                            "-C^c_{a,b} e_c for the brackets of its fields."},
     {"equations of motion", "On the constraint submanifold: the constraints are eliminated, nothing else."},
     {"reduced equations", "The equations that remain when the group is divided out as well (nhsym reduce)."},
     {"first integral", "A function of time, coordinates and velocities that every motion keeps constant: "

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "reduction/section.h"
 #include "reduction/subspace.h"
 #include "reduction/torus.h"
 
@@ -68,6 +69,23 @@ static void name_group(nh_group *g, const nh_options *options)
     nh_text_clear(&name);
 }
 
+/* The changes of the components after a turn of each angle vanish: exact relations; false: not known. */
+static bool single_valued_exactly(const nh_action *g, const nh_options *options, double *c, size_t *n)
+{
+    const nh_kinetic *k = g->kinetic;
+    nh_dag *d = k->dag;
+    size_t m = k->m, rows = m * m;
+    nh_ex *e = nh_alloc_array(rows * g->d + 1, sizeof *e);
+    for (size_t i = 0; i < rows * g->d; i++) {
+        nh_ex q = k->q[i / m % m], x = g->generator[i / rows].component[i % m],
+              after = nh_add(d, q, nh_mul(d, nh_int(d, 2), nh_pi(d)));
+        e[i] = k->periodic[i / m % m] ? nh_sub(d, nh_substitute(d, x, 1, &q, &after), x) : nh_int(d, 0);
+    }
+    bool known = nh_section_combinations(k, g->d, rows, e, options, c, n);
+    nh_free(e);
+    return known;
+}
+
 /* The combinations of generators that are single-valued on all angles form an algebra: the null space of their changes
  * after a turn, in units of the coordinates and of the generators' sizes. */
 static size_t single_valued(const nh_action *g, const nh_options *options, double *c)
@@ -75,7 +93,8 @@ static size_t single_valued(const nh_action *g, const nh_options *options, doubl
     enum { most_places = 8 };
     static const double turn = 6.283185307179586;
     const nh_kinetic *k = g->kinetic;
-    size_t m = k->m, d = g->d, places = k->places < most_places ? k->places : most_places, rows = places * m * m;
+    size_t m = k->m, d = g->d, places = k->places < most_places ? k->places : most_places, rows = places * m * m, exact;
+    if (single_valued_exactly(g, options, c, &exact)) return exact;
     double *a = nh_alloc_array(rows * d + 2 * m * d + 2 * m + d + 1, sizeof *a), *before = a + rows * d,
            *after = before + m * d, *q = after + m * d, *unit = q + m, *size = unit + m;
     nh_kinetic_sizes(k, places, unit);

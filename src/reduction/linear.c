@@ -99,8 +99,10 @@ void nh_linear_momenta_find(nh_linear_momenta *out, const nh_reduced *o, const n
     nh_ex *rest = nh_alloc_array(rows + 1, sizeof *rest);
     out->N = nh_arena_alloc(arena, (g * g + 1) * sizeof *out->N);
     if (coefficients(o, shape, g, out->index, out->N, rest)) {
+        size_t rank;
         out->off = off_linear(o, shape, g, out->index, out->N, rest);
-        if (out->off <= options->group) out->count = g;
+        bool known = nh_kinetic_rank(o->kinetic, 1, rows, rest, &rank); /* what is not linear vanishes */
+        if (known ? rank == 0 : out->off <= options->group) out->count = g;
     }
     nh_free(rest);
 }
