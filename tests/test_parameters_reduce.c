@@ -157,7 +157,7 @@ Test(parameters_reduce, equations_of_a_special_group_say_so)
     place p = place_make();
     write_here(&p, "own.yaml", bowl);
     finished latex = run(&p, "reduce own.yaml --to latex --initial x=1"), c = run(&p, "reduce own.yaml --to c --initial x=1");
-    finished page = run(&p, "reduce own.yaml --html page.html --initial x=1");
+    finished page = run(&p, "reduce -v own.yaml --html page.html --initial x=1");
     char *html = read_here(&p, "page.html");
     cr_expect_not_null(strstr(latex.out, "a group of symmetries for k = 1"), "%s%s", latex.out, latex.err);
     cr_expect_not_null(strstr(c.out, "a group of symmetries for k = 1"), "%s", c.out);

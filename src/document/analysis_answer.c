@@ -21,6 +21,7 @@ typedef struct {
     bool colour;
     bool terse; /* the full answer does not fit the screen: long formulas and symmetries are left out */
     bool all_proved;        /* every quantity */
+    bool *written;          /* of each: was its formula? */
     const char **proof;     /* of each: "for all m, k", or the sentence that says how sure it is */
     nh_formula_list list;   /* of the quantities, with common names for repeated parts */
 } screen;
@@ -40,6 +41,17 @@ static const nh_completeness *counted_first(const nh_analysis *r)
     return c->counted && !c->count.obstacle ? c : NULL;
 }
 
+/* Why more may exist than were found; "" where all was tried. */
+static const char *left_open(const nh_analysis *r)
+{
+    if (r->search == NH_SEARCH_COMPLETE) return "";
+    if (r->search == NH_SEARCH_CUT) return "A limit ended the search early: more may exist.";
+    if (nh_analysis_left_out(r)) return "Parts of the search were too large and left out (--details): more may exist.";
+    if (nh_analysis_by_trial(r)) return nh_facts_search(r);
+    if (nh_facts_given(r) && !r->stages) return "Only the ansatz of the analysis file was tried.";
+    return "";
+}
+
 static void headline(const screen *x)
 {
     const nh_analysis *r = x->r;
@@ -47,10 +59,13 @@ static void headline(const screen *x)
     nh_text words;
     nh_text_init(&words);
     const char *proved = x->all_proved ? " and proved" : "";
-    if (!r->count && r->verdict == NH_FOUND) nh_text_addf(&words, "%s.", nh_facts_between_walls(r));
-    else if (!r->count && r->verdict == NH_NONE)
-        nh_text_addf(&words, "Nothing is conserved of the form that was tried. %s", nh_facts_search(r));
-    else if (!r->count) nh_text_addf(&words, "%s. %s", nh_facts_nothing(r), nh_facts_search(r));
+    size_t ends = nh_analysis_to_the_end(r);
+    if (!r->count && r->verdict == NH_FOUND)
+        nh_text_addf(&words, "%zu quantit%s conserved until motions end. At most %zu can exist.", ends,
+                     ends == 1 ? "y is" : "ies are", most);
+    else if (!r->count && r->verdict == NH_NONE) nh_text_add(&words, "Nothing that was tried is conserved.");
+    else if (!r->count && r->pieces) nh_text_add(&words, "Nothing was found that is conserved along all motions.");
+    else if (!r->count) nh_text_add(&words, "Undecided: nothing was found that is surely conserved.");
     else if (n == most && n == 1)
         nh_text_addf(&words, "The only conserved quantity that can exist was found%s.", proved);
     else if (n == most) nh_text_addf(&words, "All %zu conserved quantities that can exist were found%s.", n, proved);
@@ -61,8 +76,7 @@ static void headline(const screen *x)
         nh_text_addf(&words, "%zu independent conserved quantit%s found. At most %zu can exist.", n,
                      n == 1 ? "y was" : "ies were", most);
     if (r->count && r->motion) nh_text_add(&words, " The motion is known in closed form.");
-    bool cut = r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) || nh_analysis_by_trial(r);
-    if (r->count && (cut || (nh_facts_given(r) && !r->stages))) nh_text_addf(&words, " %s", nh_facts_search(r));
+    if (*left_open(r)) nh_text_addf(&words, " %s", left_open(r));
     say(x, 0, &words);
 }
 
@@ -87,8 +101,8 @@ static const char *label_of(const nh_analysis *r, const nh_current *f)
     return p && !nh_depends(d, f->phi, nh_symbol(d, p)) ? nh_arena_printf(r->arena, "%s = ", p) : "";
 }
 
-/* "2  p_x = m*x'"; NULL: the words in its place. */
-static void put_formula(const screen *x, size_t number, const char *label, char *formula, const char *instead)
+/* "2  p_x = m*x'"; NULL: the words in its place.  Was the formula written? */
+static bool put_formula(const screen *x, size_t number, const char *label, char *formula, const char *instead)
 {
     nh_text text, block;
     nh_text_init(&text);
@@ -98,7 +112,8 @@ static void put_formula(const screen *x, size_t number, const char *label, char 
     nh_text_add(&text, formula ? formula : instead);
     nh_sheet_broken(0, NH_SCREEN_HANG + 2, nh_text_string(&text), &block);
     size_t n = nh_screen_count(nh_text_string(&block));
-    if (n > (x->terse ? short_lines : formula_lines)) {
+    bool written = formula && n <= (x->terse ? short_lines : formula_lines);
+    if (formula && !written) {
         nh_text_clear(&block);
         nh_text_addf(&block, "%.*sa formula of %zu lines (--details)\n", (int)head, nh_text_string(&text), n);
     }
@@ -106,6 +121,7 @@ static void put_formula(const screen *x, size_t number, const char *label, char 
     nh_free(formula);
     nh_text_clear(&text);
     nh_text_clear(&block);
+    return written;
 }
 
 /* " with w^2 - W^2 != 0", ", real where k > 0" */
@@ -196,8 +212,8 @@ static void put_quantity(const screen *x, size_t k)
     nh_text_init(&words);
     nh_text_init(&symmetry);
     bool written = !f->series && x->list.stands[k];
-    put_formula(x, k + 1, label_of(r, f), written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL,
-                f->series ? "a series with proved bounds (--details)" : "a long formula (--details)");
+    x->written[k] = put_formula(x, k + 1, label_of(r, f), written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL,
+                                f->series ? "a series with proved bounds (--details)" : "a long formula (--details)");
     bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry);
     put_meaning(r, f, rotations, &words);
     bool follows = f->independence == NH_DEPENDENT;
@@ -213,12 +229,18 @@ static void put_quantity(const screen *x, size_t k)
     nh_text_clear(&symmetry);
 }
 
-/* The names of repeated parts, once for all quantities. */
+/* The names of repeated parts that the written formulas need, once for all quantities.  Each part uses later names
+ * only. */
 static void put_parts(const screen *x)
 {
     nh_dag *d = x->r->model->dag;
+    bool used[NH_FORMULA_PARTS] = {false};
     for (size_t i = 0; i < x->list.parts && x->list.named; i++) {
-        if (!x->list.needed[i]) continue;
+        const nh_formula_part *part = x->list.part;
+        for (size_t k = 0; k < x->r->count; k++)
+            used[i] |= x->written[k] && nh_depends(d, x->list.formula[k], part[i].symbol);
+        for (size_t j = 0; j < i; j++) used[i] |= used[j] && nh_depends(d, part[j].value, part[i].symbol);
+        if (!used[i]) continue;
         nh_text line, block;
         nh_text_init(&line);
         nh_text_init(&block);
@@ -374,7 +396,7 @@ static void equations(const screen *x, size_t room)
 static void more(const screen *x)
 {
     const nh_analysis *r = x->r;
-    nh_text_addf(x->out, "\nMore: --details   symmetries, equations%s, checks, how it was searched\n",
+    nh_text_addf(x->out, "\nMore: --details   symmetries, equations%s, checks, the search\n",
                  r->motion ? ", the solution" : r->model->k ? ", constraint forces" : "");
     nh_text_add(x->out, "      --html FILE the same, with the motion, in a page\n");
 }
@@ -413,6 +435,7 @@ void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
     nh_text_init(&text);
     screen x = {.r = r, .out = &text, .colour = colour, .all_proved = true};
     x.proof = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.proof);
+    x.written = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.written);
     for (size_t k = 0; k < r->count; k++) {
         x.proof[k] = proof_of(r, &r->found[k]);
         x.all_proved = x.all_proved && r->found[k].proof.proved && !r->found[k].series;

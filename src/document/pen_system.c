@@ -175,6 +175,16 @@ static void equations(nh_pen *p, const nh_model *o, bool more)
     nh_free(label);
 }
 
+/* Symbols of the equations of motion, the multipliers and the constraint force. */
+static double length_of(const nh_model *o)
+{
+    double length = 0;
+    for (size_t i = 0; i < o->n; i++) length += (double)nh_complexity(o->dag, o->a[i]);
+    for (size_t a = 0; a < o->k; a++) length += (double)nh_complexity(o->dag, o->mu[a]);
+    for (size_t s = 0; s < o->m && o->k; s++) length += (double)nh_complexity(o->dag, o->reaction[s]);
+    return length;
+}
+
 void nh_pen_system(nh_pen *p, const nh_model *model, const nh_analysis *r)
 {
     bool brief = p->ink->brief;
@@ -185,7 +195,14 @@ void nh_pen_system(nh_pen *p, const nh_model *model, const nh_analysis *r)
     if (!brief) nh_pen_heading(p, "As it was understood");
     if (r) kind(p, r);
     equations(p, model, true);
+    enum { most_again = 4000 };
     if (!r || !r->other) return;
+    double again = length_of(r->other);
+    if (again > most_again && !p->style.verbose) {
+        nh_pen_words(p, "In {%s} the equations have %zu symbols: --velocities %s shows them.", r->other->chart->name,
+                     (size_t)again, r->other->chart->quasi ? "quasi" : "coordinates");
+        return;
+    }
     nh_pen_open(p, NH_PEN_FOLD, NULL, "In the other velocities");
     equations(p, r->other, !brief);
     nh_pen_close(p, NH_PEN_FOLD);
