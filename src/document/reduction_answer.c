@@ -162,7 +162,8 @@ void nh_reduction_write_answer(const nh_reduction *r, bool colour, nh_text *out)
     for (size_t i = 0; i < r->warnings; i++)
         nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), out);
     for (size_t i = 0; i < r->unused_count; i++)
-        nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Not used: %s: %s", r->unused[i].what, r->unused[i].why), out);
+        nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Not used: %s (--details says why).", r->unused[i].what),
+                           out);
     nh_text_add(out, "\nMore: --details   the reduced equations, brackets, conditions, measures\n"
                      "      --to c      the reduced equations as code (python, sympy, matlab, latex)\n");
 }
