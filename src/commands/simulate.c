@@ -216,8 +216,8 @@ static void note_drift(nh_simulation *s, const nh_trajectory_request *q)
     }
     if (worst < n)
         nh_motion_note(motion,
-                       "%.60s is conserved, but goes from %.3g to %.3g along this motion: the fixed step %g is too long; "
-                       "give a shorter --step or more fixed_steps, or leave --method out",
+                       "%.60s is conserved, but goes from %.3g to %.3g along this motion: the fixed step %g is too "
+                       "long; give a shorter --step or more fixed_steps, or leave --method out",
                        s->columns.track[worst].name, s->value[worst], reached, s->fixed_step);
     nh_dynamics_free(d);
     nh_free(size);

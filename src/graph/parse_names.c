@@ -265,7 +265,8 @@ static bool unresolved(parser *p, const char *word, size_t at)
          called = nh_parse_peek(p) == '(';
     fault->offset = at;
     if (unknown) snprintf(fault->what, sizeof fault->what, "unknown %s `%s`", called ? "function" : "name", word);
-    const char *instead = unknown && called ? nh_function_elsewhere(word) : NULL,
+    bool applied = called || (p->at > nh_parse_token_end(p) && nh_parse_begins_name(p)); /* ln x */
+    const char *instead = unknown && applied ? nh_function_elsewhere(word) : NULL,
                *near = unknown && called ? nh_function_nearest(word) : NULL; /* nearer than a coordinate s to sn(x) */
     if (instead) return nh_parse_hint(p, "%s", instead);
     if (near) return nh_parse_hint(p, "did you mean `%s`?", near);
@@ -293,7 +294,12 @@ static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
     bool moves = strchr(word, '\'') || knows(p, rate, &any);
     if (moves && take_time(p)) return true;
     nh_parse_fail(p, p->at, "`%s` is not a function: a product with a parenthesis has a sign or a blank between", word);
-    return nh_parse_propose(p, p->at, p->at, "*");
+    size_t end = p->at + strcspn(p->text + p->at, "()") + 1; /* of V(x), where V is an expression of x */
+    end += strcspn(p->text + end - 1, ")");
+    bool whole = moves && nh_kind_of(p->dag, *out) != NH_SYMBOL &&
+                 p->text[p->at + 1 + strcspn(p->text + p->at + 1, "()")] == ')';
+    if (!whole) return nh_parse_propose(p, p->at, p->at, "*");
+    return nh_parse_propose_two(p, (nh_parse_change){p->at, end, ""}, (nh_parse_change){p->at, p->at, "*"});
 }
 
 bool nh_parse_name(parser *p, nh_ex *out)

@@ -101,7 +101,8 @@ static bool read_parameters(reader *r)
                                 &p->input))
             return false;
         if (!value) return nh_deck_fail(r->deck, item, 0, r->error, "the parameter `%s` has no `value`", p->name);
-        if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error)) return false;
+        if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error))
+            return nh_unit_hint(value->text, r->error);
         p->symbol = nh_symbol(s->dag, p->name);
         s->parameters = i + 1;
     }
@@ -157,6 +158,12 @@ static bool read_coordinate(reader *r, const nh_deck_node *item)
     return true;
 }
 
+static bool is_symbol(void *dag, const char *name)
+{
+    nh_ex any;
+    return nh_symbol_find(dag, name, &any);
+}
+
 static bool read_coordinates(reader *r)
 {
     enum { most_coordinates = 100 };
@@ -170,8 +177,8 @@ static bool read_coordinates(reader *r)
         if (s->chain)
             return nh_error_hint(r->error, "every joint is fixed: --base floating (or `base: floating`) lets the body "
                                            "that carries all others move");
-        const char *moving = list ? NULL : nh_ordinary_moving(r->deck);
-        if (moving) return nh_error_hint(r->error, "coordinates: %s", moving);
+        const char *lines = list ? NULL : nh_ordinary_declare_all(r->deck, is_symbol, s->dag);
+        if (lines) return nh_error_hint(r->error, "%s", lines);
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
     if (n > most_coordinates) {
