@@ -254,6 +254,14 @@ static bool propose_factors(parser *p, const char *word, size_t at)
             return nh_parse_propose(p, at, nh_parse_token_end(p), out), true;
         }
     }
+    for (size_t n = 1; nh_parse_peek(p) == '(' && n < strlen(word); n++) { /* msin(x) */
+        char head[NH_PARSE_NAME + 3];
+        snprintf(head, sizeof head, "%.*s", (int)n, word);
+        bool function = nh_name_is_function(word + n, &f) || !strcmp(word + n, "sqrt");
+        if (!function || !knows(p, head, &any)) continue;
+        snprintf(out, sizeof out, "%s*%s", head, word + n);
+        return nh_parse_propose(p, at, nh_parse_token_end(p), out), true;
+    }
     return factors_of(p, word, 0, out, sizeof out) && (nh_parse_propose(p, at, nh_parse_token_end(p), out), true);
 }
 
@@ -269,8 +277,8 @@ static bool unresolved(parser *p, const char *word, size_t at)
     const char *instead = unknown && applied ? nh_function_elsewhere(word) : NULL,
                *near = unknown && called ? nh_function_nearest(word) : NULL; /* nearer than a coordinate s to sn(x) */
     if (instead) return nh_parse_hint(p, "%s", instead);
-    if (near) return nh_parse_hint(p, "did you mean `%s`?", near);
     if (unknown && propose_factors(p, word, at)) return false;
+    if (near) return nh_parse_hint(p, "did you mean `%s`?", near);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
     return nh_parse_hint(p, "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs, those of `nhsym explain "
                             "functions`, and those that a system declares: functions: [\"%.40s(x)\"]", word);

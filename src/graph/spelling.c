@@ -21,7 +21,7 @@ typedef struct {
 static const char *const signs[][2] = {
     {"\u2019", "'"},  {"\u2018", "'"}, {"\u2032", "'"},  {"\u00b4", "'"},   {"\u2033", "''"},    {"\u00b7", "*"},
     {"\u22c5", "*"},  {"\u2219", "*"}, {"\u00d7", "*"},  {"\u2217", "*"},   {"\u2212", "-"},     {"\u2013", "-"},
-    {"\u00f7", "/"},  {"\u2215", "/"}, {"\u00a0", " "},  {"\u2009", " "},   {"\u221a", "sqrt "}, {"\u00b0", " deg "},
+    {"\u00f7", "/"},  {"\u2215", "/"}, {"\u00a0", " "},  {"\u2009", " "},   {"\u221a", " sqrt "}, {"\u00b0", " deg "},
     {"\u202f", " "},  {"\u2061", " "}, {"\\cdot", "*"}, {"\\times", "*"}, {"\\left", ""},     {"\\right", ""},
     {"\\quad", " "}, {"\\,", " "},   {"\\;", " "},    {"\\:", " "},     {"\\!", " "},       {"\\ ", " "}};
 static const char *const superscripts[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
@@ -123,7 +123,8 @@ static bool spell_function(speller *s)
     if (!strncmp(word, "arc", 3)) memmove(word + 1, word + 3, sizeof word - 3); /* arcsin is asin */
     if (!strcmp(word, "ln")) strcpy(word, "log");
     if (!nh_is_reserved(word) || !strcmp(word, "t") || !strcmp(word, "pi")) return false;
-    bool follows = s->out.length && isalnum((unsigned char)s->out.data[s->out.length - 1]);
+    unsigned char last = s->out.length ? (unsigned char)s->out.data[s->out.length - 1] : ' ';
+    bool follows = isalnum(last) || last >= 0x80;
     if (follows) put(s, " ");
     put(s, word);
     s->at += 1 + n;
