@@ -417,3 +417,19 @@ Test(ordinary_input, random_formulas_mean_the_same_on_paper)
     }
     cr_expect_gt(c.proposals, 50, "%zu", c.proposals);
 }
+
+/* Outputs have the canonical form; what is written so stays as it is written. */
+Test(ordinary_input, texts_for_outputs_are_canonical)
+{
+    static const char file[] = "parameters: m = 2\ncoordinates: [x, y, φ]\nT: ½ m (ẋ² + ẏ²) + φ̇²/2\ndefinitions: [\"w = 2*m\"]\n"
+                               "constraints: [\"ẋ sin φ = ẏ cos φ\", \"phi'  = 0*x'\"]\n";
+    nh_error error;
+    nh_error_clear(&error);
+    nh_system *s = nh_system_parse("test.yaml", file, 0, NULL, &error);
+    cr_assert(s, "%s; %s", error.what, error.hint);
+    cr_expect_str_eq(s->constraint[0].text, "x'*sin(phi) = y'*cos(phi)");
+    cr_expect_str_eq(s->constraint[1].text, "phi'  = 0*x'");
+    cr_expect_str_eq(s->definition[0].text, "w = 2*m");
+    cr_expect_str_eq(s->definition[1].text, "T = (phi'^2 + m*(x'^2 + y'^2))/2");
+    nh_system_free(s);
+}

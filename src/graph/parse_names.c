@@ -53,6 +53,7 @@ static bool bare_argument(parser *p, const char *name, nh_ex *argument)
     }
     size_t begin = p->at;
     if (!nh_parse_atom(p, argument)) return false;
+    p->fault->ordinary = true;
     p->bare_end = p->at;
     p->bare_begin = begin;
     p->number_end = SIZE_MAX;
@@ -137,6 +138,7 @@ static bool function(parser *p, nh_function f, bool root, const char *word, size
     nh_ex exponent;
     size_t at = p->at;
     bool raised = nh_parse_peek(p) == '^';
+    p->fault->ordinary |= raised;
     if (raised && !function_power(p, word, start, &exponent)) return false;
     if (!(root ? square_root(p, start, out) : call(p, f, word, start, out))) return false;
     return !raised || nh_parse_raise(p, *out, exponent, at, out);
@@ -292,15 +294,18 @@ static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
     nh_ex any;
     fault->what[0] = fault->hint[0] = 0;
     if (!p->resolve(p->context, word, out, fault)) {
-        if (derivative(p, word, out) || quotient_of_differentials(p, word, out)) return true;
-        if (strcmp(word, "deg")) return unresolved(p, word, at);
+        bool unit = !strcmp(word, "deg");
+        if (!derivative(p, word, out) && !quotient_of_differentials(p, word, out) && !unit)
+            return unresolved(p, word, at);
+        fault->ordinary = true;
+        if (!unit) return true;
         *out = nh_mul(p->dag, nh_pi(p->dag), nh_ratio(p->dag, 1, 180));
         return true;
     }
     if (p->text[p->at] != '(') return true;
     snprintf(rate, sizeof rate, "%s'", word);
     bool moves = strchr(word, '\'') || knows(p, rate, &any);
-    if (moves && take_time(p)) return true;
+    if (moves && take_time(p)) return fault->ordinary = true;
     nh_parse_fail(p, p->at, "`%s` is not a function: a product with a parenthesis has a sign or a blank between", word);
     size_t end = p->at + strcspn(p->text + p->at, "()") + 1; /* of V(x), where V is an expression of x */
     end += strcspn(p->text + end - 1, ")");

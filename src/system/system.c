@@ -245,6 +245,20 @@ bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, con
     return read_node(deck, node, skip, &(scope){system, extras, extra, forbid}, lhs, rhs, &fault, error);
 }
 
+bool nh_system_read_written(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip,
+                            nh_ex *lhs, nh_ex *rhs, const char **text, nh_error *error)
+{
+    nh_parse_fault fault;
+    if (!read_node(deck, node, skip, &(scope){system, 0, NULL, NH_NO_QUASI}, lhs, rhs, &fault, error)) return false;
+    *text = node->text + skip + strspn(node->text + skip, " ");
+    if (!fault.ordinary) return true;
+    char *left = lhs ? nh_print_string(system->dag, *lhs) : NULL, *right = nh_print_string(system->dag, *rhs);
+    *text = nh_arena_printf(system->arena, "%s%s%s", left ? left : "", left ? " = " : "", right);
+    nh_free(left);
+    nh_free(right);
+    return true;
+}
+
 bool nh_system_read_defined(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, nh_ex *out,
                             bool *undefined, nh_error *error)
 {

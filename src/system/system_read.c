@@ -272,8 +272,11 @@ static bool read_definition(reader *r, const nh_deck_node *node, const char *nam
     nh_deck_node name = entry ? *node->key[0] : *node;
     name.text = d->name = name_text;
     if (!nh_system_new_name(r, &name)) return false;
-    if (!nh_system_read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
-    d->text = entry ? nh_arena_printf(s->arena, "%s = %s", name_text, node->item[0]->text) : node->text;
+    const nh_deck_node *value = node;
+    size_t skip = right_side(&value);
+    if (!nh_system_read_written(s, r->deck, value, skip, NULL, &d->value, &d->text, r->error)) return false;
+    bool as_written = !entry && d->text >= node->text && d->text <= node->text + strlen(node->text);
+    d->text = as_written ? node->text : nh_arena_printf(s->arena, "%s = %s", name_text, d->text);
     nh_named *framed = &s->framed_definition[s->definitions];
     *framed = *d;
     if (s->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value)) return false;
@@ -369,8 +372,7 @@ static bool read_constraints(reader *r)
         const nh_deck_node *node = list->item[i];
         if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a constraint `... = ...`", r->error)) return false;
         *c = (nh_constraint){.text = node->text, .node = node};
-        if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, &c->lhs, &c->rhs, r->error))
-            return false;
+        if (!nh_system_read_written(s, r->deck, node, 0, &c->lhs, &c->rhs, &c->text, r->error)) return false;
         nh_ex f = nh_sub(s->dag, c->lhs, c->rhs);
         bool moving = false, placed = false;
         for (size_t j = 0; j < s->coordinates; j++) {
