@@ -311,8 +311,10 @@ long nh_system_coordinate(const nh_system *system, const char *name)
 const char *nh_system_state_name(const nh_system *s, const char *name)
 {
     static const char *const around[][2] = {{"", "_dot"}, {"", "dot"}, {"d", "/dt"}};
-    name = nh_deck_spelled(s->arena, name);
     size_t length = strlen(name);
+    bool start = length > 3 && !strcmp(name + length - 3, "(0)"); /* x(0) = 1 */
+    name = nh_deck_spelled(s->arena, start ? nh_arena_strndup(s->arena, name, length - 3) : name);
+    length = strlen(name);
     nh_ex taken;
     if (nh_symbol_find(s->dag, name, &taken) || in_named(s->definitions, s->definition, name, &taken)) return name;
     for (size_t i = 0; i < sizeof around / sizeof *around; i++) {
