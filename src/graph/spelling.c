@@ -83,17 +83,24 @@ static void spell_closed(speller *s)
     put(s, ")");
 }
 
+/* Is the group one word: {2}, {m}, {dt}, {d\theta}? */
+static bool is_word(const char *group)
+{
+    size_t n = 1;
+    while (isalnum((unsigned char)group[n]) || group[n] == '\\' || (unsigned char)group[n] >= 0x80) n++;
+    return *group == '{' && group[n] == '}';
+}
+
 static bool spell_fraction(speller *s)
 {
     static const char *const words[] = {"\\frac", "\\dfrac", "\\tfrac"};
     for (size_t i = 0; i < 3; i++) {
         if (!starts(s->at, words[i])) continue;
-        const char *group = s->at += strlen(words[i]);
-        bool rate = !strncmp(group, "{d", 2) && strstr(group, "}{dt}") == strchr(group, '}'); /* d theta/dt */
+        s->at += strlen(words[i]);
         put(s, " (");
-        (rate ? spell_group : spell_closed)(s);
+        (is_word(s->at) ? spell_group : spell_closed)(s);
         put(s, "/");
-        (rate ? spell_group : spell_closed)(s);
+        (is_word(s->at) ? spell_group : spell_closed)(s);
         put(s, ") ");
         return true;
     }
@@ -129,7 +136,7 @@ static bool spell_function(speller *s)
     put(s, word);
     s->at += 1 + n;
     if (!strcmp(word, "sqrt") && *s->at == '{') spell_closed(s);
-    else put(s, " ");
+    else if (!strchr("(^{", *s->at)) put(s, " ");
     return true;
 }
 

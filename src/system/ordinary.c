@@ -153,7 +153,7 @@ static void move_energies(nh_deck *deck)
         root = nh_deck_copy(deck, root, energies[i]);
     }
     nh_deck_put(deck, root, "definitions", list);
-    if (found[0] && !nh_deck_get(root, "lagrangian"))
+    if (found[0] && !(found[1] && found[2]) && !nh_deck_get(root, "lagrangian"))
         nh_deck_put(deck, root, "lagrangian",
                     nh_deck_word_at(deck, found[1] ? "T - V" : found[2] ? "T - U" : "T", found[0]));
     deck->root = root;

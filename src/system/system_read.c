@@ -321,7 +321,13 @@ static bool read_lagrangian(reader *r)
     }
     if (!node && s->chain) return true;
     if (!node) {
+        const char *energy[] = {"T", "V", "U"};
+        bool given[3] = {false};
+        for (size_t i = 0; i < 3 * s->definitions; i++)
+            given[i % 3] |= !strcmp(s->definition[i / 3].name, energy[i % 3]);
         nh_deck_fail(r->deck, NULL, 0, r->error, "this system has no `lagrangian`");
+        if (given[0] && (given[1] || given[2]))
+            return nh_error_hint(r->error, "lagrangian: T%s%s", given[1] ? " - V" : "", given[2] ? " - U" : "");
         return nh_error_hint(r->error, "for example: lagrangian: m/2*x'^2 - m*g*x");
     }
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the lagrangian", r->error)) return false;
