@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/memory.h"
+#include "graph/parse.h"
 #include "graph/print.h"
 #include "program.h"
 #include "system/system.h"
@@ -80,7 +81,11 @@ static const struct {
     {"m*9,81", "m*9.81"},
     {"1½", "1+1/2"},
     {"m*x(y)", "m*x*(y)"},
-    {"V(x)", "V*(x)"},
+    {"V(x)", "V"},
+    {"2 V(x) + 1", "2*V + 1"},
+    {"|x| + 1", "abs(x) + 1"},
+    {"m*[x + y]", "m*(x + y)"},
+    {"1 000 x", "1000*x"},
     {"lθ̇", "l*theta'"},
 };
 
@@ -253,6 +258,10 @@ Test(ordinary_input, numbers_of_options_are_expressions)
         {"--initial theta=90deg --until 2pi --step pi/4", "--initial theta=pi/2 --until 6.283185307179586 --step 0.7853981633974483"},
         {"--initial θ=90°,θ̇=0 --until 1 --step 1/2", "--initial theta=pi/2,theta'=0 --until 1 --step 0.5"},
         {"--initial theta_dot=1 --until 1 --step 1", "--initial theta'=1 --until 1 --step 1"},
+        {"--initial θ(0)=1,θ̇(0)=2 --until 1 --step 1", "--initial theta=1,theta'=2 --until 1 --step 1"},
+        {"--initial {theta:1,theta':2} --until 1 --step 1", "--initial theta=1,theta'=2 --until 1 --step 1"},
+        {"--initial θ=1 --until 1 --step 1 --watch θ̇²,a=2θ", "--initial theta=1 --until 1 --step 1 --watch theta'^2,a=2*theta"},
+        {"--initial θ=1 --until 1 --step 1 --axes θ,θ̇ --svg a.svg", "--initial theta=1 --until 1 --step 1 --axes theta,theta' --svg b.svg"},
         {"--initial dtheta/dt=1 --until 1 --step 1", "--initial theta'=1 --until 1 --step 1"},
         {"--initial thetadot:1 --until 1 --step 1", "--initial theta'=1 --until 1 --step 1"},
         {"--initial theta=1 --set g=2*pi --until 1 --step 1", "--initial theta=1 --set g=6.283185307179586 --until 1 --step 1"},
@@ -277,4 +286,154 @@ Test(ordinary_input, numbers_of_options_are_expressions)
     finished_clear(&comma);
     finished_clear(&set);
     place_clear(&p);
+}
+
+/* ---- the kind: random formulas, each in the canonical form and as on paper ---- */
+
+typedef struct {
+    unsigned long seed;
+    size_t proposals;
+} chance;
+
+static unsigned pick(chance *c, unsigned n)
+{
+    c->seed = c->seed * 6364136223846793005UL + 1442695040888963407UL;
+    return (unsigned)(c->seed >> 33) % n;
+}
+
+static bool known_name(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
+{
+    static const char *const names[] = {"m", "g", "l", "x", "theta", "x'", "theta'", "x_1", "x_1'"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!strcmp(name, names[i])) return *out = nh_symbol(context, name), true;
+    snprintf(fault->what, sizeof fault->what, "unknown name `%s`", name);
+    return false;
+}
+
+static void put_sum(chance *c, unsigned depth, nh_text *plain, nh_text *paper);
+
+/* A name, a velocity, a power of one, a call or a sum in parentheses; `last`: the argument may have no parentheses. */
+static void put_factor(chance *c, unsigned depth, bool last, nh_text *plain, nh_text *paper)
+{
+    static const char *const names[][4] = {{"m", "m", "m", "m"}, {"g", "g", "g", "g"}, {"l", "l", "l", "l"}, {"theta", "θ", "\\theta", "theta"},
+                                           {"x", "x", "x(t)", "x"}, {"x_1", "x_1", "x_{1}", "x_1"}},
+                             *const rates[][6] = {{"x'", "ẋ", "x’", "dx/dt", "diff(x, t)", "\\dot{x}"}, {"theta'", "θ̇", "θ′", "dθ/dt", "\\dot\\theta", "diff(θ(t), t)"},
+                                                  {"x_1'", "ẋ_1", "\\dot{x}_1", "x_1'", "x_1'", "x_1'"}};
+    static const char *const powers[][4] = {{"^2", "^2", "²", "**2"}, {"^3", "^{3}", "³", "^3"}};
+    static const char *const calls[][2] = {{"sin", "sin"}, {"cos", "\\cos"}, {"sqrt", "√"}};
+    unsigned kind = pick(c, depth ? 6 : 4);
+    if (kind < 2) {
+        unsigned n = pick(c, 6);
+        nh_text_add(plain, names[n][0]);
+        nh_text_add(paper, names[n][pick(c, 4)]);
+    } else if (kind < 4) {
+        unsigned n = pick(c, 3), how = pick(c, 6), p = pick(c, 3);
+        bool quotient = strchr(rates[n][how], '/') != NULL;
+        nh_text_addf(plain, "%s%s", rates[n][0], p < 2 ? powers[p][0] : "");
+        nh_text_addf(paper, quotient ? "(%s)%s" : "%s%s", rates[n][how], p < 2 ? powers[p][pick(c, 4)] : "");
+    } else if (kind == 4) {
+        unsigned f = pick(c, 3), n = pick(c, 6);
+        bool bare = last && pick(c, 2);
+        nh_text_addf(plain, "%s(", calls[f][0]);
+        nh_text_add(paper, calls[f][pick(c, 2)]);
+        nh_text_addf(paper, bare ? " %s" : "(", names[n][pick(c, 2)]);
+        if (bare) nh_text_add(plain, names[n][0]);
+        else put_sum(c, depth - 1, plain, paper);
+        nh_text_add(plain, ")");
+        if (!bare) nh_text_add(paper, ")");
+    } else {
+        nh_text_add(plain, "(");
+        nh_text_add(paper, "(");
+        put_sum(c, depth - 1, plain, paper);
+        nh_text_add(plain, ")");
+        nh_text_add(paper, ")");
+    }
+}
+
+static void put_term(chance *c, unsigned depth, nh_text *plain, nh_text *paper)
+{
+    static const char *const numbers[][4] = {{"1/2*", "½ ", "1/2 ", "1/2"}, {"2*", "2", "2 ", "2·"}, {"3.5*", "3.5", "3.5 ", "3.5×"}, {"", "", "", ""}};
+    static const char *const between[] = {" ", "*", "·", "×", " ", " * ", "\\cdot ", ""};
+    unsigned n = pick(c, 4), factors = 1 + pick(c, 3);
+    nh_text_add(plain, numbers[n][0]);
+    nh_text_add(paper, numbers[n][pick(c, 4)]);
+    for (unsigned i = 0; i < factors; i++) {
+        const char *sign = between[pick(c, 8)];
+        nh_text factor;
+        nh_text_init(&factor);
+        if (i) nh_text_add(plain, "*");
+        put_factor(c, depth, i + 1 == factors, plain, &factor);
+        bool ends = i && (strchr(")'", paper->data[paper->length - 1]) || factor.data[0] == '(');
+        if (!*sign && !ends) sign = " "; /* mx is a name of two letters */
+        if (i) nh_text_add(paper, sign);
+        nh_text_add(paper, factor.data);
+        nh_text_clear(&factor);
+    }
+}
+
+static void put_sum(chance *c, unsigned depth, nh_text *plain, nh_text *paper)
+{
+    unsigned terms = 1 + pick(c, 3);
+    for (unsigned i = 0; i < terms; i++) {
+        bool minus = pick(c, 2);
+        if (i) nh_text_add(plain, minus ? " - " : " + "), nh_text_add(paper, !minus ? "+" : pick(c, 2) ? " − " : "-");
+        put_term(c, depth, plain, paper);
+    }
+}
+
+/* Read with the same meaning; or refused, as `mx'` and `m(x + 1)` are: then the text that is proposed is read so, or the next one. */
+static void check_formula(chance *c, const char *plain, const char *paper)
+{
+    enum { rounds = 12 };
+    nh_dag *d = nh_dag_create();
+    nh_parse_fault fault;
+    nh_ex wanted, found;
+    char text[600], next[600], *end;
+    snprintf(text, sizeof text, "%s", paper);
+    cr_assert(nh_parse(d, plain, known_name, d, &wanted, &fault), "%s: %s", plain, fault.what);
+    for (int i = 0; i < rounds; i++) {
+        if (nh_parse(d, text, known_name, d, &found, &fault)) {
+            cr_expect_eq(found, wanted, "%s, as %s, is not %s", paper, text, plain);
+            break;
+        }
+        bool proposal = !strncmp(fault.hint, "write `", 7) && (end = strchr(fault.hint + 7, '`'));
+        cr_expect(proposal && i + 1 < rounds, "%s, as %s: %s; %s", paper, text, fault.what, fault.hint);
+        if (!proposal) break;
+        snprintf(next, sizeof next, "%.*s", (int)(end - fault.hint - 7), fault.hint + 7);
+        if (strlen(text) > 90) break; /* a part of the text is shown */
+        strcpy(text, next);
+        c->proposals++;
+    }
+    nh_dag_free(d);
+}
+
+Test(ordinary_input, random_formulas_mean_the_same_on_paper)
+{
+    chance c = {.seed = 7};
+    for (int i = 0; i < 3000; i++) {
+        nh_text plain, paper;
+        nh_text_init(&plain);
+        nh_text_init(&paper);
+        put_sum(&c, 2, &plain, &paper);
+        if (paper.length < 500) check_formula(&c, plain.data, paper.data);
+        nh_text_clear(&plain);
+        nh_text_clear(&paper);
+    }
+    cr_expect_gt(c.proposals, 50, "%zu", c.proposals);
+}
+
+/* Outputs have the canonical form; what is written so stays as it is written. */
+Test(ordinary_input, texts_for_outputs_are_canonical)
+{
+    static const char file[] = "parameters: m = 2\ncoordinates: [x, y, φ]\nT: ½ m (ẋ² + ẏ²) + φ̇²/2\ndefinitions: [\"w = 2*m\"]\n"
+                               "constraints: [\"ẋ sin φ = ẏ cos φ\", \"phi'  = 0*x'\"]\n";
+    nh_error error;
+    nh_error_clear(&error);
+    nh_system *s = nh_system_parse("test.yaml", file, 0, NULL, &error);
+    cr_assert(s, "%s; %s", error.what, error.hint);
+    cr_expect_str_eq(s->constraint[0].text, "x'*sin(phi) = y'*cos(phi)");
+    cr_expect_str_eq(s->constraint[1].text, "phi'  = 0*x'");
+    cr_expect_str_eq(s->definition[0].text, "w = 2*m");
+    cr_expect_str_eq(s->definition[1].text, "T = (phi'^2 + m*(x'^2 + y'^2))/2");
+    nh_system_free(s);
 }

@@ -31,7 +31,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_project, "project", no_argument, "", "simulate benchmark reduce linearize", "project the initial positions and velocities onto the constraints") \
     X(opt_initial_table, "initial-table", required_argument, "FILE",           "simulate", "a motion per row of a CSV file: initial states and parameters by name") \
     X(opt_method,      "method",      required_argument, "NAME",               "simulate benchmark", "integrator, as `nhsym explain methods` lists them; auto: the one that suits") \
-    X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing; a method with a fixed step makes fixed_steps of them from one output to the next")                                                       \
+    X(opt_step,        "step",        required_argument, "H",                  "simulate", "output spacing; a method with a fixed step makes fixed_steps of them, 10, from one output to the next")                                                       \
     X(opt_watch,       "watch",       required_argument, "\"x, T=m/2*v^2\"",   "simulate", "only these quantities, from the smallest model that determines them")                \
     X(opt_event,       "event",       required_argument, "\"y = 0, falling, stop\"", "simulate", "zeros of an expression along the motion: rising, falling or both; stop: the first ends it; repeatable") \
     X(opt_section,     "section",     required_argument, "\"x, rising\"",       "simulate", "a Poincare section: a row for each zero of the expression, instead of the motion's table") \

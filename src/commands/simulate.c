@@ -195,26 +195,30 @@ static bool use_method(nh_simulation *s, const nh_simulate_request *q, const dou
     return nh_error_hint(error, "`nhsym explain methods` lists the others");
 }
 
-/* A note where steps of a fixed length are so long that what the motion conserves changes by a part of its size. */
+/* A note where steps of a fixed length are so long that what the motion conserves changes by a hundredth of the size of
+ * its terms, or, where these nearly cancel, by as much as it is and more than small errors are. */
 static void note_drift(nh_simulation *s, const nh_trajectory_request *q)
 {
-    static const double gross = 0.01;
+    static const double gross = 0.01, small = 1e-4;
     nh_motion *motion = s->motion;
     size_t n = q->n, worst = n;
-    double most = gross, *size = nh_alloc_array(n + 1, sizeof *size);
+    double most = 0, reached = 0, *size = nh_alloc_array(n + 1, sizeof *size);
     nh_dynamics *d = nh_dynamics_create(s->model);
     bool known = nh_trajectory_sizes(d, motion, n, q->e, size);
     for (size_t k = 0; k < n && known; k++) {
-        double drift = 0;
+        double drift = 0, far = s->value[k];
         if (!(size[k] > 0) || !nh_dependency_graph_conserved(s->model, q->e[k])) continue;
-        for (size_t i = 0; i < motion->count; i++) drift = fmax(drift, fabs(s->value[i * n + k] - s->value[k]));
-        if (drift > most * size[k]) most = drift / size[k], worst = k;
+        for (size_t i = 0; i < motion->count; i++)
+            if (fabs(s->value[i * n + k] - s->value[k]) > drift)
+                far = s->value[i * n + k], drift = fabs(far - s->value[k]);
+        bool lost = drift > gross * size[k] || (drift > small * size[k] && drift > fabs(s->value[k]));
+        if (lost && drift > most * size[k]) most = drift / size[k], reached = far, worst = k;
     }
     if (worst < n)
         nh_motion_note(motion,
-                       "%.60s is conserved, but changes by %.2g of its size along this motion: the fixed step %g is "
-                       "too long; give a shorter --step or more fixed_steps, or leave --method out",
-                       s->columns.track[worst].name, most, s->fixed_step);
+                       "%.60s is conserved, but goes from %.3g to %.3g along this motion: the fixed step %g is too "
+                       "long; give a shorter --step or more fixed_steps, or leave --method out",
+                       s->columns.track[worst].name, s->value[worst], reached, s->fixed_step);
     nh_dynamics_free(d);
     nh_free(size);
 }

@@ -118,13 +118,14 @@ static bool allowed(const nh_simulate_request *q, nh_simulation *s, nh_error *er
 static bool find_column(nh_simulation *s, piece p, int *out, nh_error *error)
 {
     const char **name = nh_arena_alloc(s->arena, (s->columns.count + 1) * sizeof *name);
+    const char *word = nh_arena_strndup(s->arena, p.from, p.length), *own = nh_system_state_name(s->system, word);
     size_t n = 0;
     for (; n < s->columns.count && s->columns.track[n].kind != NH_TRACK_SHAPE; n++) {
         name[n] = s->columns.track[n].name;
-        if (says(p, name[n])) return *out = (int)n, true;
+        if (!strcmp(word, name[n]) || !strcmp(own, name[n])) return *out = (int)n, true;
     }
     if (says(p, "t")) return *out = NH_AXIS_TIME, true;
-    const char *word = nh_arena_strndup(s->arena, p.from, p.length), *near = nh_text_nearest(word, name, n);
+    const char *near = nh_text_nearest(word, name, n);
     nh_fail(error, NH_USAGE, "", "--axes: `%s` is not a column of the table", word);
     return near ? nh_error_hint(error, "did you mean `%s`?", near)
                 : nh_error_hint(error, "--watch \"a = %s, b = EXPR\" --axes \"a, b\" takes any expressions", name[0]);

@@ -273,6 +273,7 @@ static bool between_factors(parser *p, const quotient *q, char *sign)
     if (bare && !(follows && nh_parse_begins_function(p))) return nh_parse_bare_argument_ends(p);
     if (follows && q->open && !(q->number && p->at > end)) return ambiguous_quotient(p, q);
     if (!follows) p->at++;
+    p->fault->ordinary |= follows;
     return true;
 }
 
@@ -343,6 +344,7 @@ static parser parser_of(nh_dag *dag, const nh_spelling *spelling, nh_resolve *re
                         nh_parse_fault *fault)
 {
     memset(fault, 0, sizeof *fault);
+    fault->ordinary = spelling->own != NULL;
     return (parser){.dag = dag,
                     .text = spelling->text,
                     .number_end = SIZE_MAX,

@@ -24,6 +24,7 @@
 typedef struct {
     size_t offset; /* offset of the error in the text, in bytes */
     char what[512], hint[256];
+    bool ordinary;  /* it is written as on paper; also where there is no fault */
     bool undefined; /* the text is correct as far as it was read, but has no finite value there: 1/0, log(0) */
 } nh_parse_fault;
 

@@ -94,6 +94,17 @@ static bool hint_separator(parser *p)
     return false;
 }
 
+/* |x| is abs(x), and square brackets are parentheses. */
+static bool hint_closed(parser *p, char open)
+{
+    size_t begin = p->at, end = begin + 1 + strcspn(p->text + begin + 1, open == '[' ? "]" : "|");
+    char text[100];
+    if (!p->text[end]) return false;
+    int n = snprintf(text, sizeof text, "%s(%.*s)", open == '[' ? "" : "abs", (int)(end - begin - 1),
+                     p->text + begin + 1);
+    return n < (int)sizeof text && nh_parse_propose(p, begin, end + 1, text);
+}
+
 /* Names the wrong character in words. */
 static bool unexpected(parser *p, const char *wanted)
 {
@@ -113,6 +124,7 @@ static bool unexpected(parser *p, const char *wanted)
     if (c == ',' || c == '"') return hint_separator(p);
     if (c == '\\')
         return nh_parse_hint(p, "of LaTeX, Greek letters, \\dot, \\frac, \\sqrt, \\cdot and functions are read");
+    if (c == '|' || c == '[') return hint_closed(p, c);
     if ((c == '<' || c == '>') && p->equation)
         return nh_parse_hint(p, "only equations can be written: where a motion is looked at, `domain:` says");
     if (c == '=' && p->equation) return nh_parse_hint(p, "an equation has one `=` between two expressions");
@@ -133,7 +145,8 @@ bool nh_parse_no_operator(parser *p, const char *closing)
     char value[16];
     snprintf(value, sizeof value, "+%ld/%ld", top, bottom);
     if (fraction && p->number_end == end) return nh_parse_propose(p, end, p->at + fraction, value); /* 1½ */
-    return nh_parse_propose(p, end, p->at, "*");
+    bool thousands = p->number_end == end && isdigit((unsigned char)c) && strspn(p->text + p->at, "0123456789") == 3;
+    return nh_parse_propose(p, end, p->at, thousands ? "" : "*"); /* 1 000 */
 }
 
 bool nh_parse_no_operand(parser *p) { return unexpected(p, "a number, a name or `(`"); }

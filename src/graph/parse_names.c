@@ -53,6 +53,7 @@ static bool bare_argument(parser *p, const char *name, nh_ex *argument)
     }
     size_t begin = p->at;
     if (!nh_parse_atom(p, argument)) return false;
+    p->fault->ordinary = true;
     p->bare_end = p->at;
     p->bare_begin = begin;
     p->number_end = SIZE_MAX;
@@ -137,6 +138,7 @@ static bool function(parser *p, nh_function f, bool root, const char *word, size
     nh_ex exponent;
     size_t at = p->at;
     bool raised = nh_parse_peek(p) == '^';
+    p->fault->ordinary |= raised;
     if (raised && !function_power(p, word, start, &exponent)) return false;
     if (!(root ? square_root(p, start, out) : call(p, f, word, start, out))) return false;
     return !raised || nh_parse_raise(p, *out, exponent, at, out);
@@ -254,6 +256,14 @@ static bool propose_factors(parser *p, const char *word, size_t at)
             return nh_parse_propose(p, at, nh_parse_token_end(p), out), true;
         }
     }
+    for (size_t n = 1; nh_parse_peek(p) == '(' && n < strlen(word); n++) { /* msin(x) */
+        char head[NH_PARSE_NAME + 3];
+        snprintf(head, sizeof head, "%.*s", (int)n, word);
+        bool function = nh_name_is_function(word + n, &f) || !strcmp(word + n, "sqrt");
+        if (!function || !knows(p, head, &any)) continue;
+        snprintf(out, sizeof out, "%s*%s", head, word + n);
+        return nh_parse_propose(p, at, nh_parse_token_end(p), out), true;
+    }
     return factors_of(p, word, 0, out, sizeof out) && (nh_parse_propose(p, at, nh_parse_token_end(p), out), true);
 }
 
@@ -265,11 +275,12 @@ static bool unresolved(parser *p, const char *word, size_t at)
          called = nh_parse_peek(p) == '(';
     fault->offset = at;
     if (unknown) snprintf(fault->what, sizeof fault->what, "unknown %s `%s`", called ? "function" : "name", word);
-    const char *instead = unknown && called ? nh_function_elsewhere(word) : NULL,
+    bool applied = called || (p->at > nh_parse_token_end(p) && nh_parse_begins_name(p)); /* ln x */
+    const char *instead = unknown && applied ? nh_function_elsewhere(word) : NULL,
                *near = unknown && called ? nh_function_nearest(word) : NULL; /* nearer than a coordinate s to sn(x) */
     if (instead) return nh_parse_hint(p, "%s", instead);
-    if (near) return nh_parse_hint(p, "did you mean `%s`?", near);
     if (unknown && propose_factors(p, word, at)) return false;
+    if (near) return nh_parse_hint(p, "did you mean `%s`?", near);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
     return nh_parse_hint(p, "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs, those of `nhsym explain "
                             "functions`, and those that a system declares: functions: [\"%.40s(x)\"]", word);
@@ -283,17 +294,25 @@ static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
     nh_ex any;
     fault->what[0] = fault->hint[0] = 0;
     if (!p->resolve(p->context, word, out, fault)) {
-        if (derivative(p, word, out) || quotient_of_differentials(p, word, out)) return true;
-        if (strcmp(word, "deg")) return unresolved(p, word, at);
+        bool unit = !strcmp(word, "deg");
+        if (!derivative(p, word, out) && !quotient_of_differentials(p, word, out) && !unit)
+            return unresolved(p, word, at);
+        fault->ordinary = true;
+        if (!unit) return true;
         *out = nh_mul(p->dag, nh_pi(p->dag), nh_ratio(p->dag, 1, 180));
         return true;
     }
     if (p->text[p->at] != '(') return true;
     snprintf(rate, sizeof rate, "%s'", word);
     bool moves = strchr(word, '\'') || knows(p, rate, &any);
-    if (moves && take_time(p)) return true;
+    if (moves && take_time(p)) return fault->ordinary = true;
     nh_parse_fail(p, p->at, "`%s` is not a function: a product with a parenthesis has a sign or a blank between", word);
-    return nh_parse_propose(p, p->at, p->at, "*");
+    size_t end = p->at + strcspn(p->text + p->at, "()") + 1; /* of V(x), where V is an expression of x */
+    end += strcspn(p->text + end - 1, ")");
+    bool whole = moves && nh_kind_of(p->dag, *out) != NH_SYMBOL &&
+                 p->text[p->at + 1 + strcspn(p->text + p->at + 1, "()")] == ')';
+    if (!whole) return nh_parse_propose(p, p->at, p->at, "*");
+    return nh_parse_propose_two(p, (nh_parse_change){p->at, end, ""}, (nh_parse_change){p->at, p->at, "*"});
 }
 
 bool nh_parse_name(parser *p, nh_ex *out)

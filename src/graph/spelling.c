@@ -21,7 +21,7 @@ typedef struct {
 static const char *const signs[][2] = {
     {"\u2019", "'"},  {"\u2018", "'"}, {"\u2032", "'"},  {"\u00b4", "'"},   {"\u2033", "''"},    {"\u00b7", "*"},
     {"\u22c5", "*"},  {"\u2219", "*"}, {"\u00d7", "*"},  {"\u2217", "*"},   {"\u2212", "-"},     {"\u2013", "-"},
-    {"\u00f7", "/"},  {"\u2215", "/"}, {"\u00a0", " "},  {"\u2009", " "},   {"\u221a", "sqrt "}, {"\u00b0", " deg "},
+    {"\u00f7", "/"},  {"\u2215", "/"}, {"\u00a0", " "},  {"\u2009", " "},   {"\u221a", " sqrt "}, {"\u00b0", " deg "},
     {"\u202f", " "},  {"\u2061", " "}, {"\\cdot", "*"}, {"\\times", "*"}, {"\\left", ""},     {"\\right", ""},
     {"\\quad", " "}, {"\\,", " "},   {"\\;", " "},    {"\\:", " "},     {"\\!", " "},       {"\\ ", " "}};
 static const char *const superscripts[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
@@ -83,17 +83,24 @@ static void spell_closed(speller *s)
     put(s, ")");
 }
 
+/* Is the group one word: {2}, {m}, {dt}, {d\theta}? */
+static bool is_word(const char *group)
+{
+    size_t n = 1;
+    while (isalnum((unsigned char)group[n]) || group[n] == '\\' || (unsigned char)group[n] >= 0x80) n++;
+    return *group == '{' && group[n] == '}';
+}
+
 static bool spell_fraction(speller *s)
 {
     static const char *const words[] = {"\\frac", "\\dfrac", "\\tfrac"};
     for (size_t i = 0; i < 3; i++) {
         if (!starts(s->at, words[i])) continue;
-        const char *group = s->at += strlen(words[i]);
-        bool rate = !strncmp(group, "{d", 2) && strstr(group, "}{dt}") == strchr(group, '}'); /* d theta/dt */
+        s->at += strlen(words[i]);
         put(s, " (");
-        (rate ? spell_group : spell_closed)(s);
+        (is_word(s->at) ? spell_group : spell_closed)(s);
         put(s, "/");
-        (rate ? spell_group : spell_closed)(s);
+        (is_word(s->at) ? spell_group : spell_closed)(s);
         put(s, ") ");
         return true;
     }
@@ -123,12 +130,13 @@ static bool spell_function(speller *s)
     if (!strncmp(word, "arc", 3)) memmove(word + 1, word + 3, sizeof word - 3); /* arcsin is asin */
     if (!strcmp(word, "ln")) strcpy(word, "log");
     if (!nh_is_reserved(word) || !strcmp(word, "t") || !strcmp(word, "pi")) return false;
-    bool follows = s->out.length && isalnum((unsigned char)s->out.data[s->out.length - 1]);
+    unsigned char last = s->out.length ? (unsigned char)s->out.data[s->out.length - 1] : ' ';
+    bool follows = isalnum(last) || last >= 0x80;
     if (follows) put(s, " ");
     put(s, word);
     s->at += 1 + n;
     if (!strcmp(word, "sqrt") && *s->at == '{') spell_closed(s);
-    else put(s, " ");
+    else if (!strchr("(^{", *s->at)) put(s, " ");
     return true;
 }
 

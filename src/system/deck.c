@@ -118,6 +118,18 @@ static void hint_equation(const nh_deck_node *node, const char *what, nh_error *
                       node->item[0]->text);
 }
 
+/* `L = x'^2/2` for `L: x'^2/2`. */
+static void hint_colon(const nh_deck_node *node, nh_error *error)
+{
+    const char *text = node->kind == NH_DECK_SCALAR ? node->text : "", *equal = strchr(text, '=');
+    size_t word = strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_");
+    if (!word || !equal || strspn(text + word, " ") != (size_t)(equal - text) - word) return;
+    const char *source = node->deck->source + node->begin, *rest = strchr(source, '=') + 1;
+    rest += strspn(rest, " ");
+    int length = (int)strcspn(rest, "\r\n");
+    nh_error_hint(error, "a colon stands behind a key: `%.*s: %.*s`", (int)word, text, length, rest);
+}
+
 bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind, const char *what, nh_error *error)
 {
     static const char *const wanted[] = {"a single value", "a list", "a map (`key: value`)"};
@@ -127,6 +139,8 @@ bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind
     wrong(deck, node, what, error, "%s", wanted[kind]);
     if (fresh && node && kind == NH_DECK_MAP && lacks_space(node))
         nh_error_hint(error, "write a space after the colon");
+    if (fresh && node && kind == NH_DECK_MAP)
+        hint_colon(node, error);
     if (fresh && node && kind == NH_DECK_LIST)
         hint_list(node, what, error);
     if (fresh && node && kind == NH_DECK_SCALAR)

@@ -161,8 +161,12 @@ nh_deck *nh_deck_line(const char *name, const char *text, nh_code code, nh_error
     deck->code = code;
     nh_deck_node *map = nh_deck_new(deck, NH_DECK_MAP, 0, deck->length);
     bool good = nh_deck_check_text(deck, error);
-    for (size_t at = 0; good && at < deck->length; at++) {
+    size_t begin = strspn(deck->source, " "), end = deck->length;
+    while (end > begin && deck->source[end - 1] == ' ') end--;
+    bool braces = begin < end && deck->source[begin] == '{' && deck->source[end - 1] == '}'; /* {phi: 0} */
+    for (size_t at = braces ? begin + 1 : 0, stop = braces ? end - 1 : deck->length; good && at < stop; at++) {
         size_t length = nh_text_entry(deck->source + at, ",;");
+        if (at + length > stop) length = stop - at;
         good = add_entry(deck, map, at, at + length, error);
         at += length;
     }

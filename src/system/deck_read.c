@@ -207,6 +207,11 @@ static bool check_value(builder *b, const nh_deck_node *key, const nh_deck_node 
     char shown[NH_DECK_SHOWN];
     nh_deck_shorten(key->text, shown);
     nh_deck_fail_at(b->deck, key->begin, b->error, "`%s` has no value", shown);
+    const char *equal = key->plain ? strchr(key->text, '=') : NULL; /* {m = 1} */
+    size_t before = equal ? (size_t)(equal - key->text) : 0;
+    while (before && key->text[before - 1] == ' ') before--;
+    if (before)
+        return nh_error_hint(b->error, "write `%.*s: %s`", (int)before, key->text, equal + 1 + strspn(equal + 1, " "));
     if (key->plain && strchr(key->text, ':'))
         return nh_error_hint(b->error, "write a space after the colon");
     return nh_error_hint(b->error, "%s", comma_hint);

@@ -4,6 +4,7 @@
  * help. */
 #include "system/deck_yaml.h"
 
+#include <ctype.h>
 #include <string.h>
 
 typedef struct {
@@ -109,6 +110,31 @@ static bool explain_escape(const nh_deck *deck, size_t at, nh_error *error)
     return nh_error_hint(error, "write \\\\ for a backslash, or use single quotes");
 }
 
+/* The line in which the byte stands, as it is meant: `L = x` or `L:x` for `L: x`, `a: b: 1` for `a: {b: 1}`. */
+static bool hint_line(const nh_deck *deck, size_t at, nh_error *error)
+{
+    const char *source = deck->source;
+    while (at > 0 && !nh_deck_is_break(source[at - 1])) at--;
+    size_t end = at, key, next;
+    while (end < deck->length && !nh_deck_is_break(source[end])) end++;
+    while (at < end && source[at] == ' ') at++;
+    for (key = at; key < end && (isalnum((unsigned char)source[key]) || source[key] == '_'); key++) continue;
+    for (next = key; next < end && source[next] == ' '; next++) continue;
+    if (key == at || next + 1 >= end) return false;
+    const char *rest = source + next + 1 + strspn(source + next + 1, " ");
+    int length = (int)(source + end - rest), word = (int)(key - at);
+    if (length <= 0 || length > 120) return false;
+    if (source[next] == '=')
+        return nh_error_hint(error, "a colon stands behind a key: `%.*s: %.*s`", word, source + at, length, rest), true;
+    if (source[next] != ':') return false;
+    if (source[next + 1] != ' ')
+        return nh_error_hint(error, "a blank stands behind the colon: `%.*s: %.*s`", word, source + at, length, rest),
+               true;
+    const char *value = nh_arena_strndup(deck->arena, rest, (size_t)length);
+    return strchr(value, ':') && !strpbrk(value, "{}[]\"'") &&
+           (nh_error_hint(error, "write `%.*s: {%.*s}`", word, source + at, length, rest), true);
+}
+
 static bool matches(const rewording *row, const char *problem, const char *context)
 {
     return strstr(problem, row->problem) && (!row->context || (context && strstr(context, row->context)));
@@ -146,6 +172,7 @@ bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const 
             nh_deck_fail_at(deck, spot, error, "%s", row->what);
         else
             nh_deck_fail_at(deck, spot, error, "a value cannot begin with `%.1s`", deck->source + spot);
+        if (row->what && strchr(row->what, ':') && hint_line(deck, spot, error)) return false;
         return nh_error_hint(error, "%s", row->hint);
     }
     return nh_deck_fail_at(deck, at, error, "this is not YAML: %s%s%s", context ? context : "", context ? ", " : "",

@@ -27,8 +27,11 @@ static bool among(const char *const *words, size_t count, const char *word)
 /* The key that is meant by a word: in other letters, with or without an s at its end, or by its sign; NULL: none. */
 static const char *meant(const char *word)
 {
-    static const char *const others[][2] = {{"L", "lagrangian"},     {"kinetic", "T"},   {"kinetic_energy", "T"},
-                                            {"potential", "V"},      {"potential_energy", "V"}};
+    static const char *const others[][2] = {
+        {"L", "lagrangian"},      {"kinetic", "T"},          {"kinetic_energy", "T"},  {"kinetic energy", "T"},
+        {"potential", "V"},       {"potential_energy", "V"}, {"potential energy", "V"}, {"params", "parameters"},
+        {"constants", "parameters"}, {"vars", "coordinates"}, {"variables", "coordinates"},
+        {"generalized_coordinates", "coordinates"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (!strcmp(word, others[i][0])) return others[i][1];
     size_t n = strlen(word);
@@ -57,7 +60,7 @@ static const nh_deck_node *split(nh_deck *deck, const nh_deck_node *node, const 
 {
     nh_deck_node *list = nh_deck_new_at(deck, NH_DECK_LIST, node);
     for (size_t at = 0, n; node->text[at]; at += n + (node->text[at + n] != 0)) {
-        n = strcspn(node->text + at, separators);
+        n = nh_text_entry(node->text + at, separators);
         if (strspn(node->text + at, " \n") < n) nh_deck_append(deck, list, part(deck, node, at, at + n));
     }
     return list;
@@ -115,7 +118,12 @@ static const nh_deck_node *listed(nh_deck *deck, const char *key, const nh_deck_
     if (!strcmp(key, "parameters")) return each(deck, scalar ? split(deck, value, ",;\n") : value, as_parameter);
     if (!strcmp(key, "dependent")) return scalar ? split(deck, value, ",; \n") : value;
     if (value->kind == NH_DECK_MAP && among(equations, 2, key)) return entries(deck, value);
-    return scalar && (among(equations, 2, key) || !strcmp(key, "constraints")) ? split(deck, value, "\n") : value;
+    bool each_equation = scalar && nh_text_entry(value->text, ",;") < strlen(value->text); /* x' = y', z' = 0 */
+    for (const char *at = value->text; each_equation && *at; at += nh_text_entry(at, ",;"), at += *at != 0)
+        each_equation = memchr(at, '=', nh_text_entry(at, ",;")) != NULL;
+    return scalar && (among(equations, 2, key) || !strcmp(key, "constraints"))
+               ? split(deck, value, each_equation ? ",;\n" : "\n")
+               : value;
 }
 
 /* ---- keys ---- */
@@ -145,7 +153,7 @@ static void move_energies(nh_deck *deck)
         root = nh_deck_copy(deck, root, energies[i]);
     }
     nh_deck_put(deck, root, "definitions", list);
-    if (found[0] && !nh_deck_get(root, "lagrangian"))
+    if (found[0] && !(found[1] && found[2]) && !nh_deck_get(root, "lagrangian"))
         nh_deck_put(deck, root, "lagrangian",
                     nh_deck_word_at(deck, found[1] ? "T - V" : found[2] ? "T - U" : "T", found[0]));
     deck->root = root;
@@ -192,6 +200,11 @@ static const struct {
     {"quasi_velocities", "velocities: {names: [v], map: [\"x' = v\"]}"},
     {"ansatz", "this is an analysis file: nhsym analyze SYSTEM --analysis FILE"},
     {"initial", "a motion's start is no part of the system: --initial \"x=1\", or an analysis file (`validate`)"},
+    {"initial_conditions", "a motion's start is no part of the system: --initial \"x=1\""},
+    {"initial_values", "a motion's start is no part of the system: --initial \"x=1\""},
+    {"equations", "a system is given by its Lagrangian, and forces without a potential: forces: [\"x = -c*x'\"]"},
+    {"equations_of_motion", "a system is given by its Lagrangian, and forces: forces: [\"x = -c*x'\"]"},
+    {"H", "a system is given by its Lagrangian: lagrangian: m/2*x'^2 - k/2*x^2"},
 };
 
 /* Keys that are no keys of a system file, but parameters with their values, with the line to write. */
@@ -348,17 +361,50 @@ bool nh_ordinary_hint_declare(const nh_deck *deck, nh_ordinary_known *is_known, 
     return false;
 }
 
-const char *nh_ordinary_moving(nh_deck *deck)
+/* The names with commas between. */
+static const char *with_commas(nh_deck *deck, const search *s, const char *behind)
 {
-    search s = {.velocities = true};
+    const char *out = "";
+    for (const char *at = nh_text_string(&s->names); *at; at += strcspn(at, " ") + 1)
+        out = nh_arena_printf(deck->arena, "%s%s%.*s%s", out, *out ? ", " : "", (int)strcspn(at, " "), at,
+                              !*behind ? "" : strncmp(at, "g ", 2) ? behind : ": 9.81");
+    return out;
+}
+
+typedef struct {
+    const nh_deck_node *root;
+    const char *moving;
+    nh_ordinary_known *is_parameter;
+    void *context;
+} declared;
+
+static bool is_declared(void *context, const char *name)
+{
+    const declared *d = context;
+    size_t n = strlen(name);
+    for (const char *at = d->moving; (at = strstr(at, name)); at += n)
+        if (!strchr(", ]", at[-1]) && at[-1] != '[') continue;
+        else if (strchr(",]", at[n])) return true;
+    return is_defined(d->root, name) || d->is_parameter(d->context, name);
+}
+
+const char *nh_ordinary_declare_all(nh_deck *deck, nh_ordinary_known *is_parameter, void *context)
+{
+    search s = {.velocities = true}, others = {.is_known = is_declared};
+    declared d = {.root = deck->root, .is_parameter = is_parameter, .context = context};
     nh_text_init(&s.names);
+    nh_text_init(&others.names);
     look_everywhere(&s, deck->root);
-    char *list = s.names.length ? nh_arena_strndup(deck->arena, s.names.data, s.names.length - 1) : NULL;
-    nh_text out;
-    nh_text_init(&out);
-    for (const char *c = list; c && *c; c++) nh_text_add_n(&out, *c == ' ' ? ", " : c, *c == ' ' ? 2 : 1);
-    list = list ? nh_arena_printf(deck->arena, "[%s]", nh_text_string(&out)) : NULL;
-    nh_text_clear(&out);
+    const char *line = NULL, *list = with_commas(deck, &s, "");
+    if (*list) {
+        d.moving = line = nh_arena_printf(deck->arena, "[%s]", list);
+        others.context = &d;
+        look_everywhere(&others, deck->root);
+        const char *missing = with_commas(deck, &others, ": 1");
+        line = *missing ? nh_arena_printf(deck->arena, "coordinates: %s, and parameters: {%s}", line, missing)
+                        : nh_arena_printf(deck->arena, "coordinates: %s", line);
+    }
     nh_text_clear(&s.names);
-    return list;
+    nh_text_clear(&others.names);
+    return line;
 }

@@ -16,7 +16,8 @@ bool nh_ordinary_ask_values(nh_deck *deck, const nh_deck_node *list, const nh_de
  * Returns false. */
 typedef bool nh_ordinary_known(void *context, const char *name);
 bool nh_ordinary_hint_declare(const nh_deck *deck, nh_ordinary_known *is_known, void *context, nh_error *error);
-/* The coordinates whose velocities stand in the file, as a list "[x, y]"; NULL: there are none. */
-const char *nh_ordinary_moving(nh_deck *deck);
+/* The lines that declare the coordinates, whose velocities stand in the file, and other names that are not known;
+ * NULL: there are no velocities. */
+const char *nh_ordinary_declare_all(nh_deck *deck, nh_ordinary_known *is_parameter, void *context);
 
 #endif

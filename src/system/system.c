@@ -245,6 +245,20 @@ bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, con
     return read_node(deck, node, skip, &(scope){system, extras, extra, forbid}, lhs, rhs, &fault, error);
 }
 
+bool nh_system_read_written(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip,
+                            nh_ex *lhs, nh_ex *rhs, const char **text, nh_error *error)
+{
+    nh_parse_fault fault;
+    if (!read_node(deck, node, skip, &(scope){system, 0, NULL, NH_NO_QUASI}, lhs, rhs, &fault, error)) return false;
+    *text = node->text + skip + strspn(node->text + skip, " ");
+    if (!fault.ordinary) return true;
+    char *left = lhs ? nh_print_string(system->dag, *lhs) : NULL, *right = nh_print_string(system->dag, *rhs);
+    *text = nh_arena_printf(system->arena, "%s%s%s", left ? left : "", left ? " = " : "", right);
+    nh_free(left);
+    nh_free(right);
+    return true;
+}
+
 bool nh_system_read_defined(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, nh_ex *out,
                             bool *undefined, nh_error *error)
 {
@@ -297,8 +311,10 @@ long nh_system_coordinate(const nh_system *system, const char *name)
 const char *nh_system_state_name(const nh_system *s, const char *name)
 {
     static const char *const around[][2] = {{"", "_dot"}, {"", "dot"}, {"d", "/dt"}};
-    name = nh_deck_spelled(s->arena, name);
     size_t length = strlen(name);
+    bool start = length > 3 && !strcmp(name + length - 3, "(0)"); /* x(0) = 1 */
+    name = nh_deck_spelled(s->arena, start ? nh_arena_strndup(s->arena, name, length - 3) : name);
+    length = strlen(name);
     nh_ex taken;
     if (nh_symbol_find(s->dag, name, &taken) || in_named(s->definitions, s->definition, name, &taken)) return name;
     for (size_t i = 0; i < sizeof around / sizeof *around; i++) {

@@ -14,6 +14,9 @@ enum { NH_NO_VELOCITIES = 1, NH_NO_QUASI = 2, NH_FRAMED = 4 };
 bool nh_system_read_expression(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip,
                                unsigned forbid, size_t extras, const nh_named *extra, nh_ex *lhs, nh_ex *rhs,
                                nh_error *error);
+/* The same without quasi-velocities, and its text for outputs: what is written as on paper, in the canonical form. */
+bool nh_system_read_written(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, size_t skip,
+                            nh_ex *lhs, nh_ex *rhs, const char **text, nh_error *error);
 /* An expression; *undefined: it has no finite value at the given exact values of parameters, as 1/a at a = 0. */
 bool nh_system_read_defined(const nh_system *system, const nh_deck *deck, const nh_deck_node *node, nh_ex *out,
                             bool *undefined, nh_error *error);

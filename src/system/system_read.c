@@ -101,7 +101,8 @@ static bool read_parameters(reader *r)
                                 &p->input))
             return false;
         if (!value) return nh_deck_fail(r->deck, item, 0, r->error, "the parameter `%s` has no `value`", p->name);
-        if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error)) return false;
+        if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error))
+            return nh_unit_hint(value->text, r->error);
         p->symbol = nh_symbol(s->dag, p->name);
         s->parameters = i + 1;
     }
@@ -157,6 +158,12 @@ static bool read_coordinate(reader *r, const nh_deck_node *item)
     return true;
 }
 
+static bool is_symbol(void *dag, const char *name)
+{
+    nh_ex any;
+    return nh_symbol_find(dag, name, &any);
+}
+
 static bool read_coordinates(reader *r)
 {
     enum { most_coordinates = 100 };
@@ -170,8 +177,8 @@ static bool read_coordinates(reader *r)
         if (s->chain)
             return nh_error_hint(r->error, "every joint is fixed: --base floating (or `base: floating`) lets the body "
                                            "that carries all others move");
-        const char *moving = list ? NULL : nh_ordinary_moving(r->deck);
-        if (moving) return nh_error_hint(r->error, "coordinates: %s", moving);
+        const char *lines = list ? NULL : nh_ordinary_declare_all(r->deck, is_symbol, s->dag);
+        if (lines) return nh_error_hint(r->error, "%s", lines);
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
     if (n > most_coordinates) {
@@ -265,8 +272,11 @@ static bool read_definition(reader *r, const nh_deck_node *node, const char *nam
     nh_deck_node name = entry ? *node->key[0] : *node;
     name.text = d->name = name_text;
     if (!nh_system_new_name(r, &name)) return false;
-    if (!nh_system_read_right_side(r, node, NH_NO_QUASI, &d->value)) return false;
-    d->text = entry ? nh_arena_printf(s->arena, "%s = %s", name_text, node->item[0]->text) : node->text;
+    const nh_deck_node *value = node;
+    size_t skip = right_side(&value);
+    if (!nh_system_read_written(s, r->deck, value, skip, NULL, &d->value, &d->text, r->error)) return false;
+    bool as_written = !entry && d->text >= node->text && d->text <= node->text + strlen(node->text);
+    d->text = as_written ? node->text : nh_arena_printf(s->arena, "%s = %s", name_text, d->text);
     nh_named *framed = &s->framed_definition[s->definitions];
     *framed = *d;
     if (s->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value)) return false;
@@ -311,7 +321,13 @@ static bool read_lagrangian(reader *r)
     }
     if (!node && s->chain) return true;
     if (!node) {
+        const char *energy[] = {"T", "V", "U"};
+        bool given[3] = {false};
+        for (size_t i = 0; i < 3 * s->definitions; i++)
+            given[i % 3] |= !strcmp(s->definition[i / 3].name, energy[i % 3]);
         nh_deck_fail(r->deck, NULL, 0, r->error, "this system has no `lagrangian`");
+        if (given[0] && (given[1] || given[2]))
+            return nh_error_hint(r->error, "lagrangian: T%s%s", given[1] ? " - V" : "", given[2] ? " - U" : "");
         return nh_error_hint(r->error, "for example: lagrangian: m/2*x'^2 - m*g*x");
     }
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the lagrangian", r->error)) return false;
@@ -362,8 +378,7 @@ static bool read_constraints(reader *r)
         const nh_deck_node *node = list->item[i];
         if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a constraint `... = ...`", r->error)) return false;
         *c = (nh_constraint){.text = node->text, .node = node};
-        if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, &c->lhs, &c->rhs, r->error))
-            return false;
+        if (!nh_system_read_written(s, r->deck, node, 0, &c->lhs, &c->rhs, &c->text, r->error)) return false;
         nh_ex f = nh_sub(s->dag, c->lhs, c->rhs);
         bool moving = false, placed = false;
         for (size_t j = 0; j < s->coordinates; j++) {

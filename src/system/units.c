@@ -348,3 +348,13 @@ nh_unit nh_unit_of(const char *text)
     nh_unit_fault ignored;
     return read(text, &unit, &ignored) ? unit : one;
 }
+
+bool nh_unit_hint(const char *text, nh_error *error)
+{
+    size_t number = strspn(text, "0123456789.+-"), blank = strspn(text + number, " ");
+    nh_unit_fault fault;
+    if (!number || !text[number + blank] || !nh_is_unit(text + number + blank, &fault)) return false;
+    error->hint[0] = 0;
+    return nh_error_hint(error, "a unit stands beside its number: {value: %.*s, unit: %s}", (int)number, text,
+                         text + number + blank);
+}

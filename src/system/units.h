@@ -12,6 +12,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/error.h"
+
 #include "base/text.h"
 
 /* When it is none: where the part that is not understood begins, how long it is, and the nearest unit that is known,
@@ -21,6 +23,8 @@ typedef struct {
     const char *nearest;
 } nh_unit_fault;
 bool nh_is_unit(const char *text, nh_unit_fault *fault);
+/* Adds to a fault about `9.81 m/s^2` where the unit stands.  Returns false. */
+bool nh_unit_hint(const char *text, nh_error *error);
 
 /* The value of a unit: powers of the base units of the SI, with radians as 1, and the factor of their product. */
 enum {
