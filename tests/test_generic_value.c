@@ -31,7 +31,7 @@ Test(generic_value, zero_in_disguise_and_not)
 Test(generic_value, the_crane_has_no_measure_for_positive_parameters, PLAIN_ONLY)
 {
     place p = place_with_systems();
-    finished f = run(&p, "reduce crane --until 1 --json=r.json");
+    finished f = run(&p, "reduce -v crane --until 1 --json=r.json");
     cr_assert_eq(f.code, 0, "%s", f.err);
     cr_expect(strstr(f.out, "none exists for positive values of the parameters"), "%s", f.out);
     finished_clear(&f);

@@ -513,7 +513,7 @@ static const char pendulum_text[] = "name: pendulum\nparameters: [{name: k, valu
 
 static void expect_verdict(const place *p, const char *file, const char *phi, int code, const char *words)
 {
-    finished r = run_vector(p, &(manner){0}, (char *[]){(char *)p->program, "verify", (char *)file, "--current", (char *)phi, NULL});
+    finished r = run_vector(p, &(manner){0}, (char *[]){(char *)p->program, "verify", (char *)file, "--current", (char *)phi, "-v", NULL});
     cr_assert_eq(r.code, code, "%s: %d\n%s%s", phi, r.code, r.out, r.err);
     cr_assert(strstr(code > 1 ? r.err : r.out, words), "%s: %s%s", phi, r.out, r.err);
     finished_clear(&r);

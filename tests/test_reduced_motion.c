@@ -131,7 +131,7 @@ Test(reduced_motion, momenta_are_those_of_the_printed_equations, PLAIN_ONLY)
                "bodies: [{name: cart, mass: m, inertia: [0.1, 0.1, 0.4]}, {name: hand, mass: 0.7, inertia: [0.1, 0.1, 0.2], center: [0.2, 0, 0]}]\n"
                "joints:\n  - {type: planar, child: cart, coordinates: [x, y, h]}\n  - {type: revolute, parent: cart, child: hand, at: [l, 0, 0], coordinates: [p]}\n"
                "wheels: [{type: knife-edge, body: hand, at: [0.6, 0, 0], axis: y}]\n");
-    finished f = run_expecting(&p, "reduce arm.yaml --csv a.csv", 0);
+    finished f = run_expecting(&p, "reduce -v arm.yaml --csv a.csv", 0);
     char *table = read_here(&p, "a.csv"), *name = strtok(table, ",\n");
     char *end = strstr(f.out, "\nStage 2");
     cr_assert_not_null(end, "%s", f.out);

@@ -35,7 +35,7 @@ static reports verify(const place *p, const char *question, int code)
 {
     char line[400];
     reports r = {0};
-    snprintf(line, sizeof line, "verify %s --json a.json --html a.html", question);
+    snprintf(line, sizeof line, "verify -v %s --json a.json --html a.html", question);
     finished f = run_expecting(p, line, code);
     r.text = f.out;
     free(f.err);

@@ -88,7 +88,7 @@ static nh_ex shown(const nh_analysis *r, const nh_current *f)
     nh_dag *d = r->model->dag;
     nh_ex e = strncmp(f->meaning, "minus", 5) ? f->phi : nh_neg(d, f->phi);
     const nh_chart *chart = r->model->chart;
-    return nh_formula_shortened(r->analysis, d, chart->roots ? nh_chart_shown(chart, e) : e);
+    return nh_formula_shortened(r->analysis, d, nh_chart_shown(chart, e));
 }
 
 static const char *label_of(const nh_analysis *r, const nh_current *f)
@@ -383,7 +383,7 @@ static void equations(const screen *x, size_t room)
     for (size_t s = 0; s < o->m && o->chart->quasi && !o->framed; s++)
         nh_screen_equation(nh_arena_printf(o->arena, "%s'", o->system->coordinate[s].name), o->dag, o->rho[s], &block);
     for (size_t i = 0; i < o->n; i++) {
-        nh_ex a = o->chart->roots ? nh_chart_shown(o->chart, o->a[i]) : o->a[i];
+        nh_ex a = nh_chart_shown(o->chart, o->a[i]);
         nh_screen_equation(nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i])), o->dag,
                      nh_formula_shortened(r->analysis, o->dag, a), &block);
     }
