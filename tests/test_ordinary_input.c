@@ -437,3 +437,23 @@ Test(ordinary_input, texts_for_outputs_are_canonical)
     cr_expect_str_eq(s->definition[1].text, "T = (phi'^2 + m*(x'^2 + y'^2))/2");
     nh_system_free(s);
 }
+
+/* Whatever is written is read or refused, with a place within it. */
+Test(ordinary_input, pieces_in_any_order)
+{
+    static const char *const pieces[] = {"\\frac", "\\dot", "\\ddot", "\\sqrt", "\\left(", "\\sin", "{", "}", "²", "⁻", "½", "°", "√", "θ", "ẋ", "\u0307", "\u0308", "_", "(t)", "(", ")",
+                                         "diff(", "x", "m", "'", "^", "/dt", "d", ", t)", "2", ".", " ", "|", "[", "]", "sin", "atan2", "deg", "−", "·", "\xc3", "\xff", "1e", "\\", "=", ","};
+    chance c = {.seed = 3};
+    for (int i = 0; i < 20000; i++) {
+        nh_dag *d = nh_dag_create();
+        nh_parse_fault fault;
+        nh_ex e;
+        nh_text text;
+        nh_text_init(&text);
+        for (unsigned n = 1 + pick(&c, 12); n; n--) nh_text_add(&text, pieces[pick(&c, sizeof pieces / sizeof *pieces)]);
+        if (!nh_parse(d, text.data, known_name, d, &e, &fault))
+            cr_expect(fault.what[0] && fault.offset <= text.length, "%s: %s at %zu", text.data, fault.what, fault.offset);
+        nh_text_clear(&text);
+        nh_dag_free(d);
+    }
+}
