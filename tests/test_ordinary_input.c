@@ -457,3 +457,22 @@ Test(ordinary_input, pieces_in_any_order)
         nh_dag_free(d);
     }
 }
+
+/* Tables of spreadsheets: other separators, decimal commas, marks, and names in every spelling. */
+Test(ordinary_input, tables)
+{
+    static const char *const tables[] = {"\xEF\xBB\xBFθ;θ̇;g\r\n0,5;0;9,81\r\n1;0,25;9,81\r\n", "theta\ttheta_dot\tg\n1/2\t0\t9.81\n1\t0.25\t9.81\n",
+                                         "theta, dtheta/dt, g\n0.5, 0, 9.81\n1, .25, 9.81\n", "g,θ(0),thetadot\n9.81,0.5,0\n9.81,1,0.25\n"};
+    place p = place_make();
+    write_here(&p, "swing.yaml", "parameters: {g: 9.81}\ncoordinates: [θ]\nL: θ̇²/2 + g cos θ\n");
+    write_here(&p, "plain.csv", "theta,theta',g\n0.5,0,9.81\n1,0.25,9.81\n");
+    finished wanted = run_expecting(&p, "simulate swing.yaml -q --until 1 --step 1 --initial-table plain.csv", 0);
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        write_here(&p, "table.csv", tables[i]);
+        finished found = run_expecting(&p, "simulate swing.yaml -q --until 1 --step 1 --initial-table table.csv", 0);
+        cr_expect_str_eq(found.out, wanted.out, "%s", tables[i]);
+        finished_clear(&found);
+    }
+    finished_clear(&wanted);
+    place_clear(&p);
+}
