@@ -33,6 +33,7 @@ static const struct {
     {"2(x + 1)", "2*(x + 1)"},
     {"2x + 3.5y", "2*x + 3.5*y"},
     {"2 m l", "2*m*l"},
+    {"V (x + 1) + m (t) + l (x)", "V*(x + 1) + m*t + l*x"},
     {"2 m x y x' y'", "2*m*x*y*x'*y'"},
     {"m l^2 θ'^2/2", "m*l^2*theta'^2/2"},
     {"1/2 m x'^2", "1/2*m*x'^2"},
@@ -83,6 +84,9 @@ static const struct {
     {"m*x(y)", "m*x*(y)"},
     {"V(x)", "V"},
     {"2 V(x) + 1", "2*V + 1"},
+    {"V (x) + 1", "V + 1"},
+    {"m theta (t)", "m*theta"},
+    {"V(x + 1)", "V*(x + 1)"},
     {"|x| + 1", "abs(x) + 1"},
     {"m*[x + y]", "m*(x + y)"},
     {"1 000 x", "1000*x"},
@@ -436,4 +440,43 @@ Test(ordinary_input, texts_for_outputs_are_canonical)
     cr_expect_str_eq(s->definition[0].text, "w = 2*m");
     cr_expect_str_eq(s->definition[1].text, "T = (phi'^2 + m*(x'^2 + y'^2))/2");
     nh_system_free(s);
+}
+
+/* Whatever is written is read or refused, with a place within it. */
+Test(ordinary_input, pieces_in_any_order)
+{
+    static const char *const pieces[] = {"\\frac", "\\dot", "\\ddot", "\\sqrt", "\\left(", "\\sin", "{", "}", "²", "⁻", "½", "°", "√", "θ", "ẋ", "\u0307", "\u0308", "_", "(t)", "(", ")",
+                                         "diff(", "x", "m", "'", "^", "/dt", "d", ", t)", "2", ".", " ", "|", "[", "]", "sin", "atan2", "deg", "−", "·", "\xc3", "\xff", "1e", "\\", "=", ","};
+    chance c = {.seed = 3};
+    for (int i = 0; i < 20000; i++) {
+        nh_dag *d = nh_dag_create();
+        nh_parse_fault fault;
+        nh_ex e;
+        nh_text text;
+        nh_text_init(&text);
+        for (unsigned n = 1 + pick(&c, 12); n; n--) nh_text_add(&text, pieces[pick(&c, sizeof pieces / sizeof *pieces)]);
+        if (!nh_parse(d, text.data, known_name, d, &e, &fault))
+            cr_expect(fault.what[0] && fault.offset <= text.length, "%s: %s at %zu", text.data, fault.what, fault.offset);
+        nh_text_clear(&text);
+        nh_dag_free(d);
+    }
+}
+
+/* Tables of spreadsheets: other separators, decimal commas, marks, and names in every spelling. */
+Test(ordinary_input, tables)
+{
+    static const char *const tables[] = {"\xEF\xBB\xBFθ;θ̇;g\r\n0,5;0;9,81\r\n1;0,25;9,81\r\n", "theta\ttheta_dot\tg\n1/2\t0\t9.81\n1\t0.25\t9.81\n",
+                                         "theta, dtheta/dt, g\n0.5, 0, 9.81\n1, .25, 9.81\n", "g,θ(0),thetadot\n9.81,0.5,0\n9.81,1,0.25\n"};
+    place p = place_make();
+    write_here(&p, "swing.yaml", "parameters: {g: 9.81}\ncoordinates: [θ]\nL: θ̇²/2 + g cos θ\n");
+    write_here(&p, "plain.csv", "theta,theta',g\n0.5,0,9.81\n1,0.25,9.81\n");
+    finished wanted = run_expecting(&p, "simulate swing.yaml -q --until 1 --step 1 --initial-table plain.csv", 0);
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        write_here(&p, "table.csv", tables[i]);
+        finished found = run_expecting(&p, "simulate swing.yaml -q --until 1 --step 1 --initial-table table.csv", 0);
+        cr_expect_str_eq(found.out, wanted.out, "%s", tables[i]);
+        finished_clear(&found);
+    }
+    finished_clear(&wanted);
+    place_clear(&p);
 }

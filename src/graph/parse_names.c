@@ -286,12 +286,41 @@ static bool unresolved(parser *p, const char *word, size_t at)
                             "functions`, and those that a system declares: functions: [\"%.40s(x)\"]", word);
 }
 
+/* Does a parenthesis with a single name stand here, where blanks are passed over: (x)?  *end: behind it. */
+static bool single_name(const parser *p, size_t *end)
+{
+    char word[NH_PARSE_NAME + 2];
+    size_t at = p->at + strspn(p->text + p->at, " ");
+    if (p->text[at++] != '(') return false;
+    at += nh_name_spelled(p->text + at, word, sizeof word);
+    at += p->text[at] == '\'';
+    *end = at + 1;
+    return is_letter(*word) && p->text[at] == ')';
+}
+
+/* Behind a name that is known: x(t) is x.  A parenthesis is a product where a blank is before it, unless it could be
+ * the argument of a function, as in V (x) and theta (t). */
+static bool behind_name(parser *p, const char *word, nh_ex *out)
+{
+    char rate[NH_PARSE_NAME + 4];
+    size_t at = p->at, open = at + strspn(p->text + at, " "), end = 0;
+    nh_ex any;
+    if (p->text[open] != '(') return true;
+    snprintf(rate, sizeof rate, "%s'", word);
+    bool moves = strchr(word, '\'') || knows(p, rate, &any), named = single_name(p, &end);
+    bool timed = moves && named && !strncmp(p->text + open, "(t)", 3), defined = nh_kind_of(p->dag, *out) != NH_SYMBOL;
+    if (open == at && moves && take_time(p)) return p->fault->ordinary = true;
+    bool call = timed || (moves && named && defined);
+    if (open > at && !call) return true;
+    nh_parse_fail(p, open, "`%s` is not a function: a product with a parenthesis has a sign or a blank between", word);
+    if (!call) return nh_parse_propose(p, at, open, "*");
+    return nh_parse_propose_two(p, (nh_parse_change){at, end, ""}, (nh_parse_change){at, open, "*"});
+}
+
 /* Reads a name that is not the language's own: the caller resolves it. */
 static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
 {
     nh_parse_fault *fault = p->fault;
-    char rate[NH_PARSE_NAME + 4];
-    nh_ex any;
     fault->what[0] = fault->hint[0] = 0;
     if (!p->resolve(p->context, word, out, fault)) {
         bool unit = !strcmp(word, "deg");
@@ -302,17 +331,7 @@ static bool resolved(parser *p, const char *word, size_t at, nh_ex *out)
         *out = nh_mul(p->dag, nh_pi(p->dag), nh_ratio(p->dag, 1, 180));
         return true;
     }
-    if (p->text[p->at] != '(') return true;
-    snprintf(rate, sizeof rate, "%s'", word);
-    bool moves = strchr(word, '\'') || knows(p, rate, &any);
-    if (moves && take_time(p)) return fault->ordinary = true;
-    nh_parse_fail(p, p->at, "`%s` is not a function: a product with a parenthesis has a sign or a blank between", word);
-    size_t end = p->at + strcspn(p->text + p->at, "()") + 1; /* of V(x), where V is an expression of x */
-    end += strcspn(p->text + end - 1, ")");
-    bool whole = moves && nh_kind_of(p->dag, *out) != NH_SYMBOL &&
-                 p->text[p->at + 1 + strcspn(p->text + p->at + 1, "()")] == ')';
-    if (!whole) return nh_parse_propose(p, p->at, p->at, "*");
-    return nh_parse_propose_two(p, (nh_parse_change){p->at, end, ""}, (nh_parse_change){p->at, p->at, "*"});
+    return behind_name(p, word, out);
 }
 
 bool nh_parse_name(parser *p, nh_ex *out)

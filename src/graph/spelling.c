@@ -87,8 +87,9 @@ static void spell_closed(speller *s)
 static bool is_word(const char *group)
 {
     size_t n = 1;
+    if (*group != '{') return false;
     while (isalnum((unsigned char)group[n]) || group[n] == '\\' || (unsigned char)group[n] >= 0x80) n++;
-    return *group == '{' && group[n] == '}';
+    return group[n] == '}';
 }
 
 static bool spell_fraction(speller *s)
