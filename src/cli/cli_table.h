@@ -18,7 +18,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_analysis,    "analysis",    required_argument, "FILE",               "analyze simulate benchmark", "read ansatz and motion from this analysis file")                              \
     X(opt_no_analysis, "no-analysis", no_argument,       "",                   "analyze simulate benchmark", "ignore analysis files; the program chooses ansatz and motion")     \
     X(opt_velocities, "velocities",  required_argument, "auto|quasi|coordinates", "analyze verify simulate benchmark export", "velocities of the computation")                  \
-    X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate benchmark reduce classify scan linearize export", "write the result as JSON; `-`: print it, and nothing else") \
+    X(opt_json,        "json",        optional_argument, "[FILE|-]",           "analyze verify simulate benchmark reduce classify scan linearize export", "write JSON to FILE (- for standard output, and nothing else)") \
     X(opt_html,        "html",        required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan linearize", "write the result as one self-contained page") \
     X(opt_tex,         "tex",         required_argument, "FILE",               "analyze verify simulate benchmark reduce classify scan linearize export", "write the result as a LaTeX document")                                 \
     X(opt_fragment,    "fragment",    no_argument,       "",                   "analyze", "LaTeX without a preamble, to include in another document")                      \
@@ -70,7 +70,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_max_memory,  "max-memory",  required_argument, "SIZE",               "analyze verify simulate benchmark reduce classify scan linearize export", "the same for the memory: 500M, 2G") \
     X(opt_option,      "option",      required_argument, "NAME=VALUE",         "analyze verify simulate benchmark reduce classify scan linearize export", "set an option that `nhsym explain options` lists")    \
     X(opt_progress,    "progress",    required_argument, "auto|always|never",  "analyze verify simulate benchmark reduce classify scan linearize export", "show the current step on standard error")           \
-    X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize export new", "-q: no summary and no remarks; tables and code are printed unless a file holds the result") \
+    X('q',             "quiet",       no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize export new", "-q: print only tables and code") \
     X('v',             "details",     no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize", "-v: everything: symmetries, equations, checks, how it was searched") \
     X(opt_no_color,    "no-color",    no_argument,       "",                   "analyze verify simulate benchmark reduce classify scan linearize export", "no colours; NO_COLOR does the same")       \
     X('h',             "help",        no_argument,       "",                   "", "-h: list the options of the command")                                               \
@@ -119,13 +119,13 @@ const char *nh_cli_command_near(const char *word);
 
 /* name, what follows it, meaning, an example */
 #define NH_CLI_COMMAND_TABLE(X)                                                                                                                      \
-    X(analyze,  "SYSTEM|FILE", "currents, their symmetries and their checks", "nhsym analyze sleigh --html report.html")                     \
+    X(analyze,  "SYSTEM|FILE", "find conserved quantities and the symmetries behind them", "nhsym analyze sleigh --html report.html")                     \
     X(verify,   "SYSTEM|FILE", "is this conserved? is this a symmetry?", "nhsym verify sleigh --current \"m*v*sin(phi/k) + m*a*k*omega*cos(phi/k)\"") \
-    X(simulate, "SYSTEM|FILE", "compute a motion, as CSV or JSON", "nhsym simulate sleigh --initial \"phi=0, omega=2\" --until 5 --step 0.1 > motion.csv")                  \
+    X(simulate, "SYSTEM|FILE", "compute a motion: a table, CSV or JSON", "nhsym simulate sleigh --initial \"phi=0, omega=2\" --until 5 --step 0.1 > motion.csv")                  \
     X(benchmark,    "SYSTEM|FILE", "compare integrators on one motion", "nhsym benchmark sleigh --budget 1s --svg sleigh.svg")                \
-    X(reduce,   "SYSTEM|FILE", "the symmetry group and the reduced equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
-    X(classify, "SYSTEM|FILE", "at which values of a parameter more is conserved", "nhsym classify penning_trap --over w --degree 2") \
-    X(scan,     "SYSTEM|FILE", "numbers over a grid of parameters, and jumps", "nhsym scan sleigh --over k=1:4:61 -o scan") \
+    X(reduce,   "SYSTEM|FILE", "find the symmetry group and the reduced equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
+    X(classify, "SYSTEM|FILE", "find parameter values with additional conservation laws", "nhsym classify penning_trap --over w --degree 2") \
+    X(scan,     "SYSTEM|FILE", "sweep parameters over a grid, and find where numbers jump", "nhsym scan sleigh --over k=1:4:61 -o scan") \
     X(linearize, "SYSTEM|FILE", "linear equations at a state, and stability", "nhsym linearize sleigh --at \"v=1\"") \
     X(export,   "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code") \
     X(list,     "[WORD]",      "list the available systems, or those with a word", "nhsym list pendulum")                                                                                  \
