@@ -165,6 +165,7 @@ static void put_proofs(const screen *x)
     const nh_analysis *r = x->r;
     size_t groups = 0;
     nh_text words;
+    if (!r->count) return;
     nh_text_init(&words);
     for (size_t k = 0; k < r->count; k++) {
         size_t first = 0, members = 0, last = SIZE_MAX;
@@ -188,7 +189,7 @@ static void put_proofs(const screen *x)
         groups++;
     }
     nh_text_add(&words, ".");
-    if (r->count) say(x, r->count == 1 ? 3 : 0, &words);
+    say(x, r->count == 1 ? 3 : 0, &words);
 }
 
 /* "Energy.", "Momentum of x." */
