@@ -109,13 +109,13 @@ SIGNATURES = {
 # ---- the library ----
 
 def _candidates():
-    """NHSYM_LIBRARY alone where it is set; else the build of the sources that this package lies in, and what the system's loader finds."""
+    """NHSYM_LIBRARY alone where it is set; else the one that a wheel brings, the build of the sources that this package lies in, and what the system's loader finds."""
     given = os.environ.get("NHSYM_LIBRARY")
     if given:
         return [given]
     here = pathlib.Path(__file__).resolve()
-    built = [parent / "build" / SONAME for parent in here.parents[1:4]]
-    return [str(path) for path in built if path.exists()] + [SONAME]
+    near = [here.parent / "lib" / SONAME] + [parent / "build" / SONAME for parent in here.parents[1:4]]
+    return [str(path) for path in near if path.exists()] + [SONAME]
 
 
 def _blas_as_in_the_program():
