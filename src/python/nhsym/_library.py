@@ -51,6 +51,7 @@ SIGNATURES = {
     "nh_systems": (c_void_p, [_error]),
     "nh_problem_open": (c_void_p, [c_void_p, POINTER(Question), _error]),
     "nh_problem_free": (None, [c_void_p]),
+    "nh_problem_input": (c_bool, [c_void_p, c_char_p, c_char_p, _error]),
     "nh_problem_name": (c_char_p, [c_void_p]),
     "nh_problem_coordinates": (c_size_t, [c_void_p]),
     "nh_problem_coordinate": (c_char_p, [c_void_p, c_size_t]),

@@ -1,13 +1,19 @@
 """Questions to the library: the arguments of Python as the texts that it reads."""
 import ctypes
+import fractions
 import json
 import os
 import pathlib
+import re
+import tempfile
+
+import numpy
 
 from ._arguments import entries_of, number_of, pairs_of, unfit
 from ._calls import Context, Interrupted, free_later
 from ._library import ErrorRecord, Question, UsageError, error_of, library, taken
 from .formula import text_of
+from .results import array_of
 
 
 def robot_text(source, wheels, base):
@@ -96,6 +102,23 @@ def list_text(what, value, separator=", "):
     return separator.join(text_of(entry) for entry in entries_of(what, value, "give a text or a list of texts"))
 
 
+def axis_of(name, values):
+    """The values of a parameter: "1:2:11", "1, 5/2", or a list."""
+    hint = 'give values, [1, 2], or a range, "1:2:11" (lowest, highest, how many)'
+    if not isinstance(values, str):
+        return [number_of(name, value) for value in entries_of("the values of %s" % name, values, hint)]
+    if ":" not in values:
+        return [entry.strip() for entry in values.split(",")]
+    try:
+        low, high, count = (fractions.Fraction(entry.strip()) for entry in values.split(":"))
+        steps = range(int(count))
+    except (ValueError, ZeroDivisionError):
+        raise UsageError("`%s` is no range of values of %s" % (values, name), hint) from None
+    if count != len(steps) or count < 2:
+        raise UsageError("`%s` is no range of values of %s" % (values, name), hint)
+    return [float(low + (high - low) * i / (len(steps) - 1)) for i in steps]
+
+
 def bytes_of(text):
     return None if text is None else text.encode()
 
@@ -154,6 +177,70 @@ class Problem:
         if not address:
             raise error_of(error)
         return make(address)
+
+
+class Rates:
+    """nh_rates: the equations of motion of a problem."""
+
+    def __init__(self, problem):
+        self.address = problem.call(lambda error: library().nh_rates_create(problem.address, error))
+
+    def __del__(self):
+        if getattr(self, "address", None):
+            free_later(library().nh_rates_free, self.address)
+
+
+# ---- inputs over time ----
+
+MOST = 1000  # values of a table: most_corners of src/problem/input.c
+
+
+def input_texts(inputs, times):
+    """Of each input its name, and an expression of t or a table of times and values; times(): where a function of Python is evaluated."""
+    hint = 'give {"u": "sin(t)"}, a function of t, or times and values: {"u": ([0, 1, 2], [0, 5, 5])}'
+    given = []
+    for name, value in pairs_of("inputs", inputs, hint):
+        if not isinstance(value, str) and callable(value) and not hasattr(value, "free_symbols"):
+            at = times(name_of(name))
+            value = (at, [value(float(t)) for t in at])
+        if isinstance(value, (tuple, list)):
+            value = _table(name_of(name), value, hint)
+        given.append((name_of(name), value if isinstance(value, tuple) else text_of(value)))
+    return tuple(given)
+
+
+def times_until(name, until, initial):
+    """MOST times, from 0 or an earlier start to the end of a motion."""
+    if until is None:
+        raise UsageError("the input %s is a function of Python, which needs to know the end of the motion" % name, "give until=.., or an expression of t")
+    start = re.search(r"(?:^|[,;])\s*t\s*=\s*([^,;]*)", pairs_text("initial", initial) or "")
+    return numpy.linspace(min(0.0, float(number_of("t", start.group(1)))) if start else 0.0, positive("until", until), MOST)
+
+
+def _table(name, value, hint):
+    """Its times and values; a number where there is one time."""
+    if len(value) != 2:
+        raise unfit("the input %s" % name, value, hint)
+    t, u = (array_of("the input %s" % name, part) for part in value)
+    if t.shape != u.shape or t.ndim != 1 or not len(t) or not numpy.isfinite([t, u]).all() or (numpy.diff(t) <= 0).any():
+        raise UsageError("the input %s is not two rows of numbers, one value for each of the rising times" % name, hint)
+    if len(t) > MOST:
+        raise UsageError("the input %s has %d values; %d are allowed" % (name, len(t), MOST), "take fewer, or an expression of t")
+    return (tuple(t.tolist()), tuple(u.tolist())) if len(t) > 1 else repr(float(u[0]))
+
+
+def drive(problem, given):
+    """Lets the inputs act; a table goes through a file."""
+    for name, value in given:
+        with tempfile.TemporaryDirectory() as folder:
+            text = value
+            if isinstance(value, tuple):
+                path = os.path.join(folder, "input.csv")
+                with open(path, "w", encoding="utf-8") as file:
+                    file.writelines(["t,u\n"] + ["%r,%r\n" % row for row in zip(*value)])
+                text = path + ":u"
+            problem.call(lambda error: library().nh_problem_input(problem.address, name.encode(), text.encode(), error))
+    return problem
 
 
 class Code:

@@ -1,22 +1,21 @@
 """Systems: by name, from a file, from text, or built in Python."""
 from __future__ import annotations
 
-import functools
+import itertools
 import os
 import threading
-from typing import Any, Dict, Optional, Tuple, Union
+from typing import Any, Dict, Mapping, Optional, Tuple, Union
 
 import numpy
 
 from ._arguments import explained, explains_arguments, no_attribute, pairs_of, unfit
-from ._calls import free_later
 from ._library import Comparison, ErrorRecord, InputError, UsageError, error_of, library, taken
-from ._questions import Code, Problem, bytes_of, file_text, list_text, name_of, of_analysis, pairs_text, positive, robot_text
-from ._types import Expression, Expressions, Names, Numbers, Pairs, Progress
+from ._questions import MOST, Code, Problem, Rates, axis_of, bytes_of, drive, file_text, input_texts, list_text, name_of, of_analysis, pairs_text, positive, robot_text, times_until
+from ._types import Expression, Expressions, Input, Names, Numbers, Pairs, Progress
 from .analysis import Analysis
 from .formula import text_of
 from .motion import Benchmark, Linearization, Simulation
-from .results import Classification, Reduction, Verification, array_of, arrays_of
+from .results import Classification, Reduction, Verification, array_of, arrays_of, columns
 
 
 @explained
@@ -138,10 +137,6 @@ class System:
         self._lock = threading.Lock()
         self.problem = Problem(self._question)
 
-    def __del__(self) -> None:
-        if "_rates" in self.__dict__:  # which would be made by asking for it
-            free_later(library().nh_rates_free, self._rates)
-
     @property
     def name(self) -> str:
         """As the file says it."""
@@ -163,6 +158,37 @@ class System:
         if "system_text" in self._question:
             return self._question["system_text"]
         raise InputError("the text of a shipped system is in its file", "nhsym show %s" % self.name)
+
+    def scan(self, over: Mapping[Any, Any], number: Any) -> Dict[str, numpy.ndarray]:
+        """Numbers at every point of a grid of values of parameters.
+
+        Parameters
+        ----------
+        over : mapping
+            Values of parameters, {"k": [1, 2, 3]} or {"k": "1:3:21"} (lowest, highest, how many).
+        number : callable, or mapping of names to callables
+            What is asked of the system at each point.
+
+        Returns
+        -------
+        dict of arrays
+            A row per point; the columns are the parameters and `number`, or its names.
+
+        Examples
+        --------
+        >>> table = nhsym.system("double_pendulum").scan({"g": "-1:1:2"}, lambda pendulum: pendulum.linearize().verdict)
+        >>> list(table["g"]), list(table["number"])
+        ([-1.0, 1.0], ['unstable', 'marginal'])
+        """
+        axes = {name_of(key): axis_of(name_of(key), values) for key, values in pairs_of("over", over, 'give {"k": [1, 2]} or {"k": "1:2:11"}')}
+        asked = number if hasattr(number, "items") else {"number": number}
+        if not all(callable(function) for function in asked.values()):
+            raise unfit("number", number, "give a function of the system, lambda system: system.analyze().independent, or several by name")
+        rows = []
+        for point in itertools.product(*axes.values()):
+            there = self.set(dict(zip(axes, point)))
+            rows.append({**{name: there.parameters[name] for name in axes}, **{name: function(there) for name, function in asked.items()}})
+        return columns(rows, [*axes, *asked])
 
     def set(self, values: Any = (), /, **parameters: Expression) -> System:
         """The same system with other values of parameters.
@@ -193,7 +219,7 @@ class System:
         other.problem = Problem(other._question)
         return other
 
-    def _ask(self, settings):
+    def _ask(self, settings, inputs=()):
         """The problem of a question about this system."""
         given = {key: value for key, value in settings.items() if value is not None}
         for key in ("until", "step", "accuracy"):
@@ -201,7 +227,7 @@ class System:
                 given[key] = positive(key, given[key])
         if "options" in given:
             given["options"] = ", ".join(filter(None, [self._question.get("options"), pairs_text("options", given["options"])]))
-        return Problem(dict(self._question, **given)) if given else self.problem
+        return drive(Problem(dict(self._question, **given)), inputs) if given or inputs else self.problem
 
     # ---- questions ----
 
@@ -267,7 +293,8 @@ class System:
 
     def simulate(self, initial: Optional[Pairs] = None, until: Optional[float] = None, step: Optional[float] = None, accuracy: Optional[float] = None,
                  method: Optional[str] = None, watch: Optional[Expressions] = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None,
-                 events: Optional[Names] = None, section: Optional[Expression] = None, project: bool = False) -> Simulation:
+                 events: Optional[Names] = None, section: Optional[Expression] = None, project: bool = False,
+                 inputs: Optional[Mapping[Any, Input]] = None) -> Simulation:
         """A motion.
 
         Parameters
@@ -294,6 +321,10 @@ class System:
             A Poincare section, "x", whose points are `Simulation.section_table`.
         project : bool
             An initial state that violates the constraints is moved onto them.
+        inputs : mapping, optional
+            Parameters as functions of time: {"u": "sin(t)"}, an expression of t and the other parameters; times and
+            values, {"u": ([0, 1, 2], [0, 5, 5])}, the broken line, constant before and after; or a function of Python,
+            which is evaluated at 1000 times until the end, between which it is a broken line.
 
         Returns
         -------
@@ -305,7 +336,8 @@ class System:
         >>> list(motion.table)[:4], len(motion["t"])
         (['t', 'phi', 'x', 'y'], 101)
         """
-        p = self._ask(dict(initial=pairs_text("initial", initial), until=until, step=step, accuracy=accuracy, method=method, watch=list_text("watch", watch), options=options, project=project or None))
+        p = self._ask(dict(initial=pairs_text("initial", initial), until=until, step=step, accuracy=accuracy, method=method, watch=list_text("watch", watch), options=options, project=project or None),
+                      input_texts(inputs or {}, lambda name: times_until(name, until, initial)))
         events, section = bytes_of(list_text("events", events, "; ")), bytes_of(section if section is None else text_of(section))
         return p.call(lambda error: library().nh_simulate_zeros(p.address, events, section, error), progress, lambda a: Simulation(a, p))
 
@@ -476,11 +508,20 @@ class System:
 
     # ---- equations of motion on arrays ----
 
-    @functools.cached_property
-    def _rates(self):
-        return self.problem.call(lambda error: library().nh_rates_create(self.problem.address, error))
+    _written: Any = None  # the equations that were asked for last, and their inputs
 
-    def accelerations(self, q: Numbers, v: Numbers, t: Numbers = 0.0) -> numpy.ndarray:
+    def _rates(self, inputs, t):
+        def times(name):
+            at = numpy.unique(array_of("t", t))
+            if len(at) > MOST:
+                raise UsageError("the input %s is a function of Python, and there are %d times; %d are allowed" % (name, len(at), MOST), "write it as an expression of t or as a table")
+            return at
+        given = input_texts(inputs or {}, times)
+        if self._written is None or self._written[0] != given:
+            self._written = given, Rates(drive(Problem(self._question), given) if given else self.problem)
+        return self._written[1]
+
+    def accelerations(self, q: Numbers, v: Numbers, t: Numbers = 0.0, inputs: Optional[Mapping[Any, Input]] = None) -> numpy.ndarray:
         """The accelerations of all coordinates, by the equations of motion.
 
         Parameters
@@ -489,6 +530,8 @@ class System:
             Positions and velocities that satisfy the constraints, one row per coordinate.
         t : float or array
             Times, of the other axes' shape.
+        inputs : mapping, optional
+            Parameters as functions of time, as for `simulate`; a function of Python is evaluated at the times t.
 
         Returns
         -------
@@ -503,12 +546,12 @@ class System:
         m = len(self.coordinates)
         q, v, t, count, shape = arrays_of(q, v, t, m)
         out = numpy.empty((m, count))
-        rates = self._rates
         with self._lock:
-            library().nh_rates_at(rates, count, None if t is None else t.ctypes.data, q.ctypes.data, v.ctypes.data, out.ctypes.data)
+            rates = self._rates(inputs, 0.0 if t is None else t)
+            library().nh_rates_at(rates.address, count, None if t is None else t.ctypes.data, q.ctypes.data, v.ctypes.data, out.ctypes.data)
         return out.reshape((m,) + shape)
 
-    def right_hand_side(self, t: Numbers, y: Numbers) -> numpy.ndarray:
+    def right_hand_side(self, t: Numbers, y: Numbers, inputs: Optional[Mapping[Any, Input]] = None) -> numpy.ndarray:
         """y' of y = (positions, velocities), as scipy.integrate.solve_ivp takes it, also vectorized.
 
         Parameters
@@ -517,6 +560,8 @@ class System:
             Times.
         y : array of shape (2 m,), (2 m, count), ..
             Positions, then velocities.
+        inputs : mapping, optional
+            As for `accelerations`.
 
         Returns
         -------
@@ -532,7 +577,7 @@ class System:
         m = len(self.coordinates)
         if y.ndim == 0 or y.shape[0] != 2 * m:
             raise UsageError("y has the shape %s" % (y.shape,), "give %d positions, then as many velocities" % m)
-        return numpy.concatenate([y[m:], self.accelerations(y[:m], y[m:], t)])
+        return numpy.concatenate([y[m:], self.accelerations(y[:m], y[m:], t, inputs)])
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
