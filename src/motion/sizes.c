@@ -46,7 +46,8 @@ static double middle_of(size_t count, double *values)
  * Scientific Computing 33, 1292: computational noise).  Neither is seen in states that differ by single roundings: a
  * difference of large terms is a multiple of their last digit.  A kink or a jump on the line changes two or three of
  * the differences, and not their median.  The time moves as well: functions of time alone have their rounding, too. */
-static void measure_rounding(nh_sizes *s, double t, double tau, const double *z, const double *size, double *rounding)
+static void measure_rounding(nh_sizes *s, double t, double tau, const double *z, const double *size,
+                             double *rounding)
 {
     size_t n = s->problem->size;
     double *moved = s->work + 3 * n, *f = s->line, slope[POINTS - 1], third[THIRDS];
