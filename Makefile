@@ -285,9 +285,9 @@ FORCE-same:
 	@$(MAKE) --no-print-directory SANITIZE= same-tests
 endif
 
-# Built from a copy: setuptools leaves files beside its sources.
+# Built from a copy, as setuptools leaves files beside its sources; like `pip install src/python`, with the library inside.
 wheel: library
-	@rm -rf $(BUILD)/python && mkdir -p $(BUILD)/python && cp -r src/python $(BUILD)/python/source && \
+	@rm -rf $(BUILD)/python && mkdir -p $(BUILD)/python && cp -r src/python $(BUILD)/python/source && rm -rf $(BUILD)/python/source/build && ln -s $(CURDIR) $(BUILD)/python/source/sources && \
 	python=$(CURDIR)/tests/python.sh && cd $(BUILD)/python/source && \
 	sh "$$python" -c 'from setuptools import build_meta as b; b.build_sdist(".."); b.build_wheel("..")' >../log 2>&1 || { cat ../log; exit 1; }
 	@ls $(BUILD)/python/nhsym*

@@ -90,6 +90,10 @@ typedef struct nh_problem nh_problem;
 NH_API nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh_error *error);
 /* After its results, in the thread that worked with it: what the algebra keeps for this thread is given back, too. */
 NH_API void nh_problem_free(nh_problem *problem);
+/* A parameter becomes a function of time in all answers that are asked for afterwards: "9.81 + sin(t)", an expression
+ * of t and the other parameters, or "FILE.csv:COLUMN", the broken line through a column over the column t.  On failure
+ * the problem remains as it was. */
+NH_API bool nh_problem_input(nh_problem *problem, const char *parameter, const char *input, nh_error *error);
 NH_API const char *nh_problem_name(const nh_problem *problem);
 NH_API size_t nh_problem_coordinates(const nh_problem *problem);
 NH_API const char *nh_problem_coordinate(const nh_problem *problem, size_t index);

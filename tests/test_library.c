@@ -193,6 +193,45 @@ Test(library, a_motion_agrees_with_its_closed_form)
     close_one(&o);
 }
 
+/* m x'' + k x = u.  A table of a ramp, in 30 pieces, from rest where all is zero, u too: its sum has rounding, which is all that it has at first. */
+Test(library, a_parameter_becomes_a_function_of_time)
+{
+    static const char driven[] = "name: driven\nparameters: [{name: k, value: 4}, {name: u, value: 0}]\ncoordinates: [x]\n"
+                                 "lagrangian: x'^2/2 - k*x^2/2\nforces: [x = u]\n";
+    const char *inputs[] = {"k*t", "input_of_library.csv:u"};
+    FILE *table = fopen("input_of_library.csv", "w");
+    cr_assert_not_null(table);
+    fprintf(table, "t,u\n");
+    for (int i = 0; i <= 30; i++) fprintf(table, "%.17g,%.17g\n", 0.1 * i, 0.4 * i + 1e-9 * (i % 2));
+    fclose(table);
+    for (size_t k = 0; k < 2; k++) {
+        opened o = open_one((nh_question){.system_text = driven, .set = "k=4", .initial = "x=0, x'=0", .until = 3, .step = 0.5});
+        cr_assert_not_null(o.problem, "%s", o.error.what);
+        cr_expect_not(nh_problem_input(o.problem, "uu", "t", &o.error));
+        cr_expect(strstr(o.error.what, "uu") && o.error.hint[0], "%s", o.error.what);
+        cr_expect_not(nh_problem_input(o.problem, "u", "sin(tt)", &o.error));
+        cr_expect_not(nh_problem_input(o.problem, "u", "nowhere.csv:u", NULL));
+        cr_expect_eq(nh_problem_parameters(o.problem), 2u);
+        cr_assert(nh_problem_input(o.problem, "u", inputs[k], &o.error), "%s", o.error.what);
+        nh_simulation *s = nh_simulate(o.problem, &o.error);
+        cr_assert_not_null(s, "%s", o.error.what);
+        cr_assert_eq(nh_simulation_rows(s), 7u);
+        for (size_t i = 0; i < 7; i++) {
+            double t = nh_simulation_value(s, i, 0);
+            cr_expect_float_eq(nh_simulation_value(s, i, 1), t - sin(2 * t) / 2, 1e-8);
+        }
+        nh_rates *rates = nh_rates_create(o.problem, &o.error);
+        double a = 0;
+        cr_assert_not_null(rates, "%s", o.error.what);
+        nh_rates_at(rates, 1, (double[]){1.05}, (double[]){0.3}, (double[]){0}, &a);
+        cr_expect_float_eq(a, 4 * 1.05 - 4 * 0.3, 1e-8);
+        nh_rates_free(rates);
+        nh_simulation_free(s);
+        close_one(&o);
+    }
+    remove("input_of_library.csv");
+}
+
 Test(library, a_current_and_a_field_are_verified)
 {
     opened o = open_one((nh_question){.system_text = oscillator});

@@ -247,6 +247,42 @@ void nh_problem_free(nh_problem *p)
     if (!nh_recovery_lost()) nh_foreign_memory_end(); /* FLINT keeps memory for each thread */
 }
 
+typedef struct {
+    nh_problem *problem;
+    const char *parameter, *input;
+    nh_error *error;
+    bool good;
+} driving;
+
+static void drive(void *argument)
+{
+    driving *d = argument;
+    nh_problem *p = d->problem;
+    nh_request *r = &p->request;
+    nh_setting *before = r->setting;
+    size_t count = r->settings;
+    r->setting = nh_arena_alloc(p->arena, (count + 1) * sizeof *r->setting);
+    if (count) memcpy(r->setting, before, count * sizeof *before);
+    nh_system *system = nh_request_input(r, nh_arena_strdup(p->arena, d->parameter),
+                                         nh_arena_strdup(p->arena, d->input), d->error)
+                            ? nh_system_read(r->system_path, r->settings, r->setting, d->error)
+                            : NULL;
+    d->good = system != NULL;
+    if (!system) {
+        r->setting = before, r->settings = count;
+        return;
+    }
+    nh_system_free(p->system);
+    p->system = system;
+}
+
+bool nh_problem_input(nh_problem *p, const char *parameter, const char *input, nh_error *error)
+{
+    NH_OWN_ERROR(error);
+    driving d = {.problem = p, .parameter = parameter, .input = input, .error = error};
+    return nh_problem_run(p, drive, &d, error) && d.good;
+}
+
 const char *nh_problem_name(const nh_problem *p) { return p->system->name; }
 
 size_t nh_problem_coordinates(const nh_problem *p) { return p->system->coordinates; }

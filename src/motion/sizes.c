@@ -45,8 +45,9 @@ static double middle_of(size_t count, double *values)
  * differences along a short line say about the rounding inside their evaluation (More and Wild 2011, SIAM Journal on
  * Scientific Computing 33, 1292: computational noise).  Neither is seen in states that differ by single roundings: a
  * difference of large terms is a multiple of their last digit.  A kink or a jump on the line changes two or three of
- * the differences, and not their median. */
-static void measure_rounding(nh_sizes *s, double t, const double *z, const double *size, double *rounding)
+ * the differences, and not their median.  The time moves as well: functions of time alone have their rounding, too. */
+static void measure_rounding(nh_sizes *s, double t, double tau, const double *z, const double *size,
+                             double *rounding)
 {
     size_t n = s->problem->size;
     double *moved = s->work + 3 * n, *f = s->line, slope[POINTS - 1], third[THIRDS];
@@ -58,7 +59,7 @@ static void measure_rounding(nh_sizes *s, double t, const double *z, const doubl
             /* unequal changes: equal ones of several states may be a symmetry */
             moved[i] = z[i] + k * apart * size[i] * ((double)(int64_t)same * 0x1p-63);
         }
-        if (!rate_at(s, t, moved, f + (size_t)k * n)) return;
+        if (!rate_at(s, t + k * apart * tau, moved, f + (size_t)k * n)) return;
     }
     for (size_t i = 0; i < n; i++) {
         const double *at = f + i;
@@ -80,8 +81,8 @@ static bool are_zero(nh_sizes *s, double t, double tau, const double *z, const d
     double *size = nh_alloc_array(2 * n, sizeof *size), *rounding = size + n;
     bool all = true;
     for (size_t i = 0; i < n; i++) size[i] = suspect(s->size[i], tau, rate[i]) ? 0 : s->size[i];
-    measure_rounding(s, t, z, size, rounding);
-    measure_rounding(s, t + tau, to, size, rounding);
+    measure_rounding(s, t, tau, z, size, rounding);
+    measure_rounding(s, t + tau, tau, to, size, rounding);
     for (size_t i = 0; i < n; i++)
         if (suspect(s->size[i], tau, rate[i])) all &= drowned * s->size[i] <= fabs(tau) * rounding[i];
     nh_free(size);
@@ -98,7 +99,7 @@ static void clear_drowned(nh_sizes *s, double t, double tau, const double *z, do
         any |= s->size[i] == 0 && rate[i] != 0;
         size[i] = fmax(s->size[i], fabs(tau * rate[i]));
     }
-    if (any) measure_rounding(s, t, z, size, rounding);
+    if (any) measure_rounding(s, t, tau, z, size, rounding);
     for (size_t i = 0; i < n && any; i++)
         if (s->size[i] == 0 && drowned * fabs(rate[i]) <= rounding[i]) rate[i] = 0;
     nh_free(size);
@@ -163,7 +164,7 @@ static void allocate(nh_sizes *s, const nh_flow_problem *problem)
  * which may be far smaller than their sizes; later for those that lost digits so. */
 static void measure(nh_sizes *s, double t, const double *z, double least)
 {
-    measure_rounding(s, t, z, s->reach, s->rounding);
+    measure_rounding(s, t, s->tau, z, s->reach, s->rounding);
     for (size_t i = 0; i < s->problem->size; i++) {
         double made = s->pace * s->rounding[i];
         s->reach[i] = fmax(s->reach[i], made > least * s->size[i] ? made / (disturbance * DBL_EPSILON) : s->size[i]);
@@ -220,7 +221,7 @@ static bool begin_sizes(nh_sizes *s, const nh_flow_problem *problem, double part
     /* where nothing is zero for the moment, the rates have the rounding that they will have */
     for (size_t i = 0; i < n; i++) to[i] = z[i] + tau * s->work[i];
     memcpy(s->reach, s->size, n * sizeof *s->reach);
-    measure_rounding(s, begin + tau, to, s->size, s->rounding);
+    measure_rounding(s, begin + tau, tau, to, s->size, s->rounding);
     s->pace = pace_of(s, z);
     for (int level = 0; level < least_levels; level++) measure(s, begin + tau, to, 0);
     fill(s);

@@ -17,9 +17,11 @@ from ._arguments import ArgumentError
 from ._library import Error, InputError, LimitError, NumericalError, UsageError, library_version
 from ._calls import Interrupted
 from .formula import Formula
-from .results import Analysis, Benchmark, Classification, Current, Linearization, Record, Reduction, Simulation, Verification
+from .results import Classification, Record, Reduction, Result, Verification
+from .analysis import Analysis, Current
+from .motion import Benchmark, Linearization, Picture, Simulation, Table
 from .system import System, system, systems
 
 __version__ = "0.1.0"
-__all__ = ["Analysis", "ArgumentError", "Benchmark", "Classification", "Current", "Error", "Formula", "InputError", "Interrupted", "LimitError", "Linearization", "NumericalError", "Record",
-           "Reduction", "Simulation", "System", "UsageError", "Verification", "library_version", "system", "systems"]
+__all__ = ["Analysis", "ArgumentError", "Benchmark", "Classification", "Current", "Error", "Formula", "InputError", "Interrupted", "LimitError", "Linearization", "NumericalError", "Picture",
+           "Record", "Reduction", "Result", "Simulation", "System", "Table", "UsageError", "Verification", "library_version", "system", "systems"]

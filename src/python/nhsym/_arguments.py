@@ -4,12 +4,24 @@ import functools
 import inspect
 import os
 import sys
+from typing import Any, Callable, TypeVar
 
 from ._library import UsageError
 
+Function = TypeVar("Function", bound=Callable[..., Any])
+Kind = TypeVar("Kind", bound=type)
+
 
 class ArgumentError(UsageError, TypeError):
-    """A call with an argument that the function does not have, or without one that it needs."""
+    """A call with an argument that the function does not have, or without one that it needs.
+
+    Examples
+    --------
+    >>> nhsym.system("sleigh", velocites="quasi")
+    Traceback (most recent call last):
+    nhsym._arguments.ArgumentError: system has no argument `velocites`
+    hint: did you mean `velocities`?
+    """
 
 
 def nearest(word, names):
@@ -20,9 +32,10 @@ def nearest(word, names):
 
 
 def velocity_meant(word, names):
-    """x' where x_dot, xdot or dx is asked for, or None."""
+    """x' or x_dot, as it is called here, where xdot or dx is asked for, or None."""
     for name in names:
-        if name.endswith("'") and word in (name[:-1] + "_dot", name[:-1] + "dot", "d" + name[:-1], name[:-1] + "_d", name[:-1] + "d"):
+        of = name[:-1] if name.endswith("'") else name[:-4] if name.endswith("_dot") else None
+        if of and word in (of + "_dot", of + "dot", "d" + of, of + "_d", of + "d"):
             return name
     return None
 
@@ -44,11 +57,11 @@ def _unknown(name, function, names):
     return ArgumentError("%s has no argument `%s`" % (function, name), hint)
 
 
-def explained(function, called=None):
+def explained(function: Function, called: Any = None) -> Function:
     """`function`, which raises ArgumentError where Python raises TypeError because the arguments do not fit.  A call whose arguments fit costs nothing more."""
     called = called or function.__name__
     signature = inspect.signature(function)
-    parameters = [p for p in signature.parameters.values() if p.name != "self" and not p.name.startswith("_")]
+    parameters = [p.replace(annotation=p.empty) for p in signature.parameters.values() if p.name != "self" and not p.name.startswith("_")]
     names = [p.name for p in parameters if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)]
     any_name = any(p.kind == p.VAR_KEYWORD for p in parameters)
     usage = "%s(%s)" % (called, ", ".join(str(p) for p in parameters))
@@ -64,10 +77,10 @@ def explained(function, called=None):
                 unknown = [name for name in named if name not in signature.parameters and not any_name]
                 raise (_unknown(unknown[0], called, names) if unknown else ArgumentError("%s: %s" % (called, reason), usage)) from None
             raise
-    return call
+    return call  # type: ignore[return-value]
 
 
-def explains_arguments(kind):
+def explains_arguments(kind: Kind) -> Kind:
     """A class whose public methods, and whose making and calling, are explained."""
     for name, method in list(vars(kind).items()):
         if inspect.isfunction(method) and (not name.startswith("_") or name in ("__init__", "__call__")):

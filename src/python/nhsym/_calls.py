@@ -7,14 +7,23 @@ import atexit
 import os
 import queue
 import threading
+from typing import Any
 
 from ._library import PROGRESS, UsageError, library
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a computation; `partial`: the result of what was computed until then, or None."""
+    """Ctrl-C during a computation; `partial`: the result of what was computed until then, or None.
 
-    def __init__(self, partial=None):
+    Examples
+    --------
+    >>> try:
+    ...     analysis = nhsym.system("damped_oscillator").analyze()
+    ... except nhsym.Interrupted as stop:
+    ...     analysis = stop.partial
+    """
+
+    def __init__(self, partial: Any = None) -> None:
         super().__init__("interrupted")
         self.partial = partial
 

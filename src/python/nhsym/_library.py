@@ -4,6 +4,7 @@ import functools
 import os
 import pathlib
 import re
+from typing import Optional
 from ctypes import POINTER, c_bool, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
 
 SONAME = "libnhsym.so.1"
@@ -50,6 +51,7 @@ SIGNATURES = {
     "nh_systems": (c_void_p, [_error]),
     "nh_problem_open": (c_void_p, [c_void_p, POINTER(Question), _error]),
     "nh_problem_free": (None, [c_void_p]),
+    "nh_problem_input": (c_bool, [c_void_p, c_char_p, c_char_p, _error]),
     "nh_problem_name": (c_char_p, [c_void_p]),
     "nh_problem_coordinates": (c_size_t, [c_void_p]),
     "nh_problem_coordinate": (c_char_p, [c_void_p, c_size_t]),
@@ -109,13 +111,13 @@ SIGNATURES = {
 # ---- the library ----
 
 def _candidates():
-    """NHSYM_LIBRARY alone where it is set; else the build of the sources that this package lies in, and what the system's loader finds."""
+    """NHSYM_LIBRARY alone where it is set; else the one that a wheel brings, the build of the sources that this package lies in, and what the system's loader finds."""
     given = os.environ.get("NHSYM_LIBRARY")
     if given:
         return [given]
     here = pathlib.Path(__file__).resolve()
-    built = [parent / "build" / SONAME for parent in here.parents[1:4]]
-    return [str(path) for path in built if path.exists()] + [SONAME]
+    near = [here.parent / "lib" / SONAME] + [parent / "build" / SONAME for parent in here.parents[1:4]]
+    return [str(path) for path in near if path.exists()] + [SONAME]
 
 
 def _blas_as_in_the_program():
@@ -161,8 +163,18 @@ def library():
     return loaded
 
 
-def library_version():
-    """The version of libnhsym, as text."""
+def library_version() -> str:
+    """The version of libnhsym.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> nhsym.library_version() == nhsym.__version__
+    True
+    """
     return library().nh_version_text().decode()
 
 
@@ -179,27 +191,77 @@ def taken(address):
 # ---- errors ----
 
 class Error(Exception):
-    """What went wrong: `where` (file:line:column, or empty), `what` (the cause), `hint` (the cure), `excerpt` (the line, with a caret), `code` (the exit code of the program)."""
+    """What went wrong.
 
-    def __init__(self, what, hint="", where="", excerpt="", code=2, text=None):
+    Attributes
+    ----------
+    where : str
+        "file:line:column", or "".
+    what, hint : str
+        The cause and the cure.
+    excerpt : str
+        The line of a file, with a caret below it, or "".
+    code : int
+        The exit code of the program.
+
+    Examples
+    --------
+    >>> try:
+    ...     nhsym.system("sleihg")
+    ... except nhsym.Error as error:
+    ...     print(error.hint)
+    did you mean `sleigh`?
+    """
+
+    def __init__(self, what: str, hint: str = "", where: str = "", excerpt: str = "", code: int = 2, text: Optional[str] = None) -> None:
         super().__init__(text or (what + ("\nhint: " + hint if hint else "")))
         self.what, self.hint, self.where, self.excerpt, self.code = what, hint, where, excerpt, code
 
 
 class UsageError(Error, ValueError):
-    """An invalid question: a name, an option, a number."""
+    """An invalid question: a name, an option, a number.
+
+    Examples
+    --------
+    >>> try:
+    ...     nhsym.system("sleigh").simulate(until=-1)
+    ... except nhsym.UsageError as error:
+    ...     print(error.what)
+    until needs a positive number, found -1
+    """
 
 
 class InputError(Error, ValueError):
-    """An error in a system file or an analysis file."""
+    """An error in a system file or an analysis file.
+
+    Examples
+    --------
+    >>> try:
+    ...     nhsym.System(coordinates=["x"], lagrangian="x'^2/2 - kk*x", parameters={"k": 1}, name="mine")
+    ... except nhsym.InputError as error:
+    ...     print(error.where, error.what, error.hint, sep="; ")
+    mine:6:23; unknown name `kk`; did you mean `k`?
+    """
 
 
 class NumericalError(Error, ArithmeticError):
-    """A numerical failure, with its reason."""
+    """A numerical failure, with its reason.
+
+    Examples
+    --------
+    >>> issubclass(nhsym.NumericalError, ArithmeticError)
+    True
+    """
 
 
 class LimitError(Error, RuntimeError):
-    """A limit of time, memory or iterations was reached."""
+    """A limit of time, memory or iterations was reached.
+
+    Examples
+    --------
+    >>> issubclass(nhsym.LimitError, RuntimeError)
+    True
+    """
 
 
 _classes = {2: UsageError, 3: InputError, 4: NumericalError, 5: LimitError}

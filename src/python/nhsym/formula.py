@@ -1,7 +1,10 @@
 """Formulas: the language of system files, to SymPy and back."""
+from __future__ import annotations
+
 import functools
 import html
 import re
+from typing import Any, Iterable, Optional, Tuple
 
 from . import _functions
 from ._arguments import explains_arguments
@@ -12,23 +15,36 @@ FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh
 
 @explains_arguments
 class Formula(str):
-    """A formula as text, in the language of system files: `Formula("J*phi'^2/2")`.  It is a str, shown typeset in a notebook."""
+    """A formula as text, in the language of system files.  It is a str, shown typeset in a notebook.
 
-    coordinates = ()
+    Parameters
+    ----------
+    text : str
+        "J*phi'^2/2"
+    coordinates : iterable of str
+        The names that `sympy(functions=True)` makes functions of t.
 
-    def __new__(cls, text, coordinates=()):
+    Examples
+    --------
+    >>> print(nhsym.Formula("x'/2").latex)
+    \\frac{\\dot{x}}{2}
+    """
+
+    coordinates: Tuple[str, ...] = ()
+
+    def __new__(cls, text: str, coordinates: Iterable[str] = ()) -> Formula:
         self = super().__new__(cls, text)
         self.coordinates = tuple(coordinates)
         return self
 
     @property
-    def latex(self):
+    def latex(self) -> Optional[str]:
         """LaTeX, without $; None where the text is no formula."""
         return taken(library().nh_formula_typeset(self.encode(), AS_LATEX))
 
     @property
-    def mathml(self):
-        """MathML."""
+    def mathml(self) -> Optional[str]:
+        """MathML; None where the text is no formula."""
         inside = taken(library().nh_formula_typeset(self.encode(), AS_MATHML))
         return None if inside is None else '<math xmlns="http://www.w3.org/1998/Math/MathML">%s</math>' % inside
 
@@ -38,9 +54,25 @@ class Formula(str):
     def _repr_html_(self):
         return self.mathml or "<code>%s</code>" % html.escape(self)
 
-    def sympy(self, functions=False):
-        """As a SymPy expression.  Velocities are symbols named as here, Symbol("phi'"); with functions=True coordinates are functions of t
-        and velocities their derivatives, as sympy.physics.mechanics has them.  An equation becomes Eq."""
+    def sympy(self, functions: bool = False) -> Any:
+        """As a SymPy expression.
+
+        Parameters
+        ----------
+        functions : bool
+            Coordinates as functions of t and velocities as their derivatives, as sympy.physics.mechanics has them;
+            otherwise velocities are symbols named as here, Symbol("phi'").
+
+        Returns
+        -------
+        sympy.Expr
+            An equation becomes Eq.
+
+        Examples
+        --------
+        >>> nhsym.Formula("J*phi'^2/2", ["phi"]).sympy(functions=True)
+        J*Derivative(phi(t), t)**2/2
+        """
         return _Reader(self, functions).equation()
 
 
@@ -213,7 +245,7 @@ def _of_sympy(expression):
     return _printer().doprint(expression).replace("**", "^")
 
 
-def text_of(expression):
+def text_of(expression: Any) -> str:
     """A string as it is; a number or a SymPy expression in the language of system files."""
     if isinstance(expression, str):
         return str(expression)

@@ -1,38 +1,57 @@
 """Systems: by name, from a file, from text, or built in Python."""
-import ctypes
-import functools
-import json
+from __future__ import annotations
+
+import itertools
 import os
-import pathlib
 import threading
+from typing import Any, Dict, Mapping, Optional, Tuple, Union
 
 import numpy
 
-from ._arguments import entries_of, explained, explains_arguments, no_attribute, number_of, pairs_of, unfit
-from ._calls import Context, Interrupted, free_later
-from ._library import Comparison, ErrorRecord, InputError, Question, UsageError, error_of, library, taken
+from ._arguments import explained, explains_arguments, no_attribute, pairs_of, unfit
+from ._library import Comparison, ErrorRecord, InputError, UsageError, error_of, library, taken
+from ._questions import MOST, Code, Problem, Rates, axis_of, bytes_of, drive, file_text, input_texts, list_text, name_of, of_analysis, pairs_text, positive, robot_text, times_until
+from ._types import Expression, Expressions, Input, Names, Numbers, Pairs, Progress
+from .analysis import Analysis
 from .formula import text_of
-from .results import Analysis, Benchmark, Classification, Linearization, Reduction, Simulation, Verification, _arrays, array_of
-
-
-def _robot(source, wheels, base):
-    """The text of a file that includes this one and names wheels, ["left", "right"] or {"left": 0.1, "right": None}, and the kind of the base."""
-    path = os.path.abspath(os.fspath(source))
-    entries = wheels.items() if hasattr(wheels, "items") else [(wheel, None) for wheel in ([wheels] if isinstance(wheels, str) else entries_of("wheels", wheels or (), 'give links, ["left"], or radii, {"left": 0.1}'))]
-    content = {"include": path, "wheels": [link if radius is None else {"body": link, "radius": radius} for link, radius in entries], "base": base}
-    return "".join("%s: %s\n" % (key, json.dumps(value, ensure_ascii=False)) for key, value in content.items() if value)
+from .motion import Benchmark, Linearization, Simulation
+from .results import Classification, Reduction, Verification, array_of, arrays_of, columns
 
 
 @explained
-def system(source, *, wheels=None, base=None, set=None, velocities=None, analysis=None, options=None):
-    """The system of this name ("sleigh"), of this file (a path, or a name that ends in .yaml or .urdf), or of this text (of several lines).
+def system(source: Union[str, os.PathLike], *, wheels: Any = None, base: Optional[str] = None, set: Optional[Pairs] = None, velocities: Optional[str] = None,
+           analysis: Union[None, bool, str, os.PathLike] = None, options: Optional[Pairs] = None) -> System:
+    """A system by its name, from a file, or from a text.
 
-    Of a robot description: wheels=["left", "right"] or {"left": 0.1} (with radius), base="fixed", "planar" or "floating".
+    Parameters
+    ----------
+    source : str or path
+        A name ("sleigh"), a file (a path, or a name that ends in .yaml or .urdf), or a text of several lines.
+    wheels : list or mapping, optional
+        Of a robot description: links that roll, ["left", "right"], or with radii, {"left": 0.1}.
+    base : str, optional
+        Of a robot description: "fixed", "planar", "floating" or "free".
+    set : mapping or str, optional
+        Values of parameters, {"m": 2}.
+    velocities : str, optional
+        "auto", "quasi" or "coordinates".
+    analysis : str, path or False, optional
+        An analysis file, or its text; False for none.
+    options : mapping or str, optional
+        Numerical options (docs/options.md), {"seed": 3}.
 
-    Settings: set={"m": 2}, velocities="quasi", analysis="file.yaml" (or a text; False: none), options={"seed": 3}."""
+    Returns
+    -------
+    System
+
+    Examples
+    --------
+    >>> nhsym.system("sleigh", set={"m": 3})
+    <System sleigh: coordinates phi, x, y; m = 3, a = 1, k = 2>
+    """
     settings = dict(set=set, velocities=velocities, analysis=analysis, options=options)
     if wheels or base:
-        return System(_question={"system": os.path.basename(os.fspath(source)), "system_text": _robot(source, wheels, base)}, **settings)
+        return System(_question={"system": os.path.basename(os.fspath(source)), "system_text": robot_text(source, wheels, base)}, **settings)
     if isinstance(source, os.PathLike):
         path = os.fspath(source)
         return System(_question={"system": path if "/" in path else "./" + path}, **settings)
@@ -44,8 +63,19 @@ def system(source, *, wheels=None, base=None, set=None, velocities=None, analysi
 
 
 @explained
-def systems():
-    """The systems that `system` knows by name, the shipped ones and those on NHSYM_PATH: {name: title}."""
+def systems() -> Dict[str, str]:
+    """The systems that `system` knows by name, the shipped ones and those on NHSYM_PATH.
+
+    Returns
+    -------
+    dict
+        {name: title}
+
+    Examples
+    --------
+    >>> nhsym.systems()["sleigh"]
+    'Chaplygin sleigh'
+    """
     error = ErrorRecord()
     lines = taken(library().nh_systems(error))
     if lines is None:
@@ -53,228 +83,134 @@ def systems():
     return {name: title.strip() for name, _, title in (line.partition(" ") for line in lines.splitlines())}
 
 
-# ---- system files ----
-
-def _name(coordinate):
-    """Of a string, a SymPy symbol, a function of t, or its derivative."""
-    return text_of(coordinate)
-
-
-def _named(what, entries, second):
-    """A mapping or a list as the maps of a system file: {"x": "angle"}, ["x", {"name": "y"}]."""
-    if isinstance(entries, str):
-        entries = entries.replace(",", " ").split()
-    if hasattr(entries, "items"):
-        return [dict({"name": _name(key)}, **(value if isinstance(value, dict) else {second: value})) for key, value in entries.items()]
-    return [dict(entry) if isinstance(entry, dict) else {"name": _name(entry)} for entry in entries_of(what, entries, 'give names, ["x", "y"], or a mapping')]
-
-
-def _equations(entries, right="0"):
-    entries = [entries] if isinstance(entries, str) or not hasattr(entries, "__iter__") else entries
-    if hasattr(entries, "items"):
-        return ["%s = %s" % (_name(key), text_of(value)) for key, value in entries.items()]
-    texts = [text_of(entry) for entry in entries]
-    return [text if "=" in text else "%s = %s" % (text, right) for text in texts]
-
-
-def _velocities(quasi):
-    hint = """give {"names": ["u"], "map": {"x'": "2*u"}}"""
-    if not quasi:
-        return None
-    given = dict(pairs_of("quasi_velocities", quasi, hint))
-    if set(given) != {"names", "map"}:
-        raise unfit("quasi_velocities", quasi, hint)
-    return {"names": entries_of("their names", given["names"], hint), "map": _equations(given["map"])}
-
-
-def _domain(domain):
-    hint = 'give {"x": [-1, 1]}'
-    return {_name(key): entries_of("the range of %s" % _name(key), ends, hint) for key, ends in pairs_of("domain", domain, hint)} if domain else None
-
-
-def _file(name, coordinates, lagrangian, parameters, constraints, forces, definitions, velocities, domain, title, more):
-    """The text of a system file.  JSON is YAML."""
-    content = {"name": name, "title": title, "coordinates": _named("coordinates", coordinates, "type"),
-               "parameters": [dict(p, value=number_of("the parameter " + p["name"], p["value"])) if "value" in p else p for p in _named("parameters", parameters, "value")],
-               "definitions": _equations(definitions), "lagrangian": None if lagrangian is None else text_of(lagrangian), "constraints": _equations(constraints),
-               "velocities": _velocities(velocities), "forces": _equations(forces), "domain": _domain(domain)}
-    content.update(more)
-    lines = []
-    for key, value in content.items():
-        if value is None or value == [] or value == {}:
-            continue
-        if isinstance(value, list):
-            lines += ["%s:" % key] + ["  - " + json.dumps(entry, ensure_ascii=False) for entry in value]
-        else:
-            lines.append("%s: %s" % (key, json.dumps(value, ensure_ascii=False)))
-    return "\n".join(lines) + "\n"
-
-
-# ---- questions ----
-
-def _pairs(what, value):
-    """{"m": 2} as "m=2", numbers of any kind as decimals; a string as it is."""
-    if value is None or isinstance(value, str):
-        return value
-    given = pairs_of(what, value, 'give a mapping, {"x": 1}, or a text, "x=1, y=2"')
-    return ", ".join("%s=%s" % (_name(key), entry if isinstance(entry, str) else repr(number_of("%s of %s" % (_name(key), what), entry))) for key, entry in given)
-
-
-def _list(what, value, separator=", "):
-    """Names and expressions as "y, T = m/2*v^2"."""
-    if value is None or isinstance(value, str):
-        return value
-    if hasattr(value, "items"):
-        return separator.join("%s = %s" % (key, text_of(entry)) for key, entry in value.items())
-    if hasattr(value, "free_symbols"):
-        return text_of(value)
-    return separator.join(text_of(entry) for entry in entries_of(what, value, "give a text or a list of texts"))
-
-
-def _bytes(text):
-    return None if text is None else text.encode()
-
-
-def _positive(name, value):
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = 0.0
-    if not 0 < number < float("inf"):
-        raise UsageError("%s needs a positive number, found %r" % (name, value), "leave it out for the default")
-    return number
-
-
-def _of_analysis(analysis):
-    if analysis is None:
-        return {}
-    if analysis is False:
-        return {"no_analysis": True}
-    if not isinstance(analysis, (str, os.PathLike)):
-        raise unfit("analysis", analysis, "give the path of a file, its text, or False for none")
-    path = os.fspath(analysis)
-    return {"analysis_text": path} if "\n" in path else {"analysis": path}
-
-
-class Problem:
-    """nh_problem with its context: a question whose files have been read."""
-
-    def __init__(self, question):
-        self.context = Context()
-        record = Question()
-        for key, value in question.items():
-            setattr(record, key, value.encode() if isinstance(value, str) else value)
-        self.address = self.call(lambda error: library().nh_problem_open(self.context.address, record, error))
-        self.name = library().nh_problem_name(self.address).decode()
-        self.coordinates = tuple(library().nh_problem_coordinate(self.address, i).decode() for i in range(library().nh_problem_coordinates(self.address)))
-        self.parameters = dict(self._parameter(i) for i in range(library().nh_problem_parameters(self.address)))
-
-    def _parameter(self, i):
-        value = ctypes.c_double()
-        return library().nh_problem_parameter(self.address, i, value).decode(), value.value
-
-    def __del__(self):
-        if getattr(self, "address", None):
-            context = self.context  # which outlives it
-            free_later(lambda address, _=context: library().nh_problem_free(address), self.address)
-
-    def call(self, function, progress=None, make=lambda address: address):
-        """make(function(error)), or the error as an exception.  An interrupted computation leaves what it has."""
-        error = ErrorRecord()
-        try:
-            address = self.context.call(lambda: function(error), progress)
-        except Interrupted as stop:
-            stop.partial = make(stop.partial) if stop.partial else None
-            raise
-        if not address:
-            raise error_of(error)
-        return make(address)
-
-
-class Code:
-    """nh_export: functions in one language."""
-
-    def __init__(self, address):
-        self.address = address
-
-    def __del__(self):
-        free_later(library().nh_export_free, self.address)
-
-    def _file(self, number, name=None):
-        error = ErrorRecord()
-        text = taken(library().nh_export_code(self.address, number, name, error))
-        if text is None and error.code:
-            raise error_of(error)
-        return text
-
-    @property
-    def text(self):
-        """All in one text."""
-        return self._file(0)
-
-    def write(self, folder):
-        """The files, in a folder that is made where there is none; their paths."""
-        folder, paths, name = pathlib.Path(folder), [], ctypes.c_void_p()
-        folder.mkdir(parents=True, exist_ok=True)
-        while True:
-            text = self._file(len(paths), ctypes.byref(name))
-            if text is None:
-                return paths
-            paths.append(folder / taken(name))
-            paths[-1].write_text(text, encoding="utf-8")
-
-
 @explains_arguments
 class System:
     """A mechanical system and the questions about it.
 
-        nhsym.System(coordinates={"phi": "angle", "x": "length", "y": "length"}, parameters={"m": 2, "J": 0.5},
-                     lagrangian="m/2*(x'^2 + y'^2) + J/2*phi'^2", constraints=["y'*cos(phi) = x'*sin(phi)"])
+    Expressions are texts in the language of system files, or SymPy expressions in which coordinates are functions of t
+    and velocities their derivatives.
 
-    Expressions are strings in the language of system files or SymPy expressions, in which coordinates are functions of t and velocities their derivatives.
-    `more`: other keys of system files."""
+    Parameters
+    ----------
+    coordinates : iterable or mapping
+        Names, or types by names: {"phi": "angle", "x": "length"}.
+    lagrangian : expression
+        In t, coordinates, velocities (x') and parameters.
+    parameters : mapping
+        {name: value}
+    constraints : expression or list
+        Equations, "y'*cos(phi) = x'*sin(phi)", or what is 0.
+    forces : mapping
+        {coordinate: force}
+    definitions : mapping
+        {name: expression}, names that may stand in the others.
+    quasi_velocities : mapping, optional
+        {"names": ["v"], "map": {"x'": "v*cos(phi)"}}
+    domain : mapping, optional
+        Where states are sampled: {"x": [-1, 1]}.
+    name, title : str
+        For messages and pages.
+    set, velocities, analysis, options
+        As for `system`.
+    **more
+        Other keys of system files.
 
-    def __init__(self, coordinates=None, lagrangian=None, parameters=(), constraints=(), forces=(), definitions=(), quasi_velocities=None, domain=None, name="system",
-                 title=None, *, set=None, velocities=None, analysis=None, options=None, _question=None, **more):
+    Examples
+    --------
+    >>> skate = nhsym.System(coordinates={"phi": "angle", "x": "length", "y": "length"}, parameters={"m": 2, "J": 0.5},
+    ...                      lagrangian="m/2*(x'^2 + y'^2) + J/2*phi'^2", constraints=["y'*cos(phi) = x'*sin(phi)"])
+    >>> skate.verify("J*phi'")
+    <Verification: holds, proved>
+    """
+
+    def __init__(self, coordinates: Any = None, lagrangian: Optional[Expression] = None, parameters: Any = (), constraints: Expressions = (), forces: Any = (),
+                 definitions: Any = (), quasi_velocities: Any = None, domain: Any = None, name: str = "system", title: Optional[str] = None, *,
+                 set: Optional[Pairs] = None, velocities: Optional[str] = None, analysis: Union[None, bool, str, os.PathLike] = None,
+                 options: Optional[Pairs] = None, _question: Any = None, **more: Any) -> None:
         if _question is None:
             if coordinates is None:
                 raise UsageError("a system needs coordinates", 'nhsym.System(coordinates=["x"], lagrangian="x\'^2/2"), or nhsym.system("sleigh") for one by name')
-            text = _file(name, coordinates, lagrangian, parameters, constraints, forces, definitions, quasi_velocities, domain, title, more)
+            text = file_text(name, coordinates, lagrangian, parameters, constraints, forces, definitions, quasi_velocities, domain, title, more)
             _question = {"system": name, "system_text": text}
-        self._question = dict(_question, **{key: value for key, value in dict(set=_pairs("set", set), velocities=velocities, options=_pairs("options", options)).items() if value is not None},
-                              **_of_analysis(analysis))
+        self._question = dict(_question, **{key: value for key, value in dict(set=pairs_text("set", set), velocities=velocities, options=pairs_text("options", options)).items() if value is not None},
+                              **of_analysis(analysis))
         self._lock = threading.Lock()
         self.problem = Problem(self._question)
 
-    def __del__(self):
-        if "_rates" in self.__dict__:  # which would be made by asking for it
-            free_later(library().nh_rates_free, self._rates)
-
     @property
-    def name(self):
+    def name(self) -> str:
+        """As the file says it."""
         return self.problem.name
 
     @property
-    def coordinates(self):
+    def coordinates(self) -> Tuple[str, ...]:
         """Their names, in the order of the file."""
         return self.problem.coordinates
 
     @property
-    def parameters(self):
-        """{name: value}"""
+    def parameters(self) -> Dict[str, float]:
+        """Their values, {name: value}."""
         return dict(self.problem.parameters)
 
     @property
-    def text(self):
-        """The system file."""
+    def text(self) -> str:
+        """The system file of one that was built here."""
         if "system_text" in self._question:
             return self._question["system_text"]
         raise InputError("the text of a shipped system is in its file", "nhsym show %s" % self.name)
 
-    def set(self, values=(), /, **parameters):
-        """The same system with other values of parameters: set(k=3), or a mapping from names or symbols."""
-        given = {_name(key): value for key, value in pairs_of("values", values or {}, "set(k=3), or set({k: 3})")}
-        return self._with({"set": ", ".join(filter(None, [self._question.get("set"), _pairs("set", {**given, **parameters})]))})
+    def scan(self, over: Mapping[Any, Any], number: Any) -> Dict[str, numpy.ndarray]:
+        """Numbers at every point of a grid of values of parameters.
+
+        Parameters
+        ----------
+        over : mapping
+            Values of parameters, {"k": [1, 2, 3]} or {"k": "1:3:21"} (lowest, highest, how many).
+        number : callable, or mapping of names to callables
+            What is asked of the system at each point.
+
+        Returns
+        -------
+        dict of arrays
+            A row per point; the columns are the parameters and `number`, or its names.
+
+        Examples
+        --------
+        >>> table = nhsym.system("double_pendulum").scan({"g": "-1:1:2"}, lambda pendulum: pendulum.linearize().verdict)
+        >>> list(table["g"]), list(table["number"])
+        ([-1.0, 1.0], ['unstable', 'marginal'])
+        """
+        axes = {name_of(key): axis_of(name_of(key), values) for key, values in pairs_of("over", over, 'give {"k": [1, 2]} or {"k": "1:2:11"}')}
+        asked = number if hasattr(number, "items") else {"number": number}
+        if not all(callable(function) for function in asked.values()):
+            raise unfit("number", number, "give a function of the system, lambda system: system.analyze().independent, or several by name")
+        rows = []
+        for point in itertools.product(*axes.values()):
+            there = self.set(dict(zip(axes, point)))
+            rows.append({**{name: there.parameters[name] for name in axes}, **{name: function(there) for name, function in asked.items()}})
+        return columns(rows, [*axes, *asked])
+
+    def set(self, values: Any = (), /, **parameters: Expression) -> System:
+        """The same system with other values of parameters.
+
+        Parameters
+        ----------
+        values : mapping, optional
+            {name or symbol: value}
+        **parameters
+            name=value
+
+        Returns
+        -------
+        System
+
+        Examples
+        --------
+        >>> nhsym.system("sleigh").set(k=3).parameters["k"]
+        3.0
+        """
+        given = {name_of(key): value for key, value in pairs_of("values", values or {}, "set(k=3), or set({k: 3})")}
+        return self._with({"set": ", ".join(filter(None, [self._question.get("set"), pairs_text("set", {**given, **parameters})]))})
 
     def _with(self, question):
         other = object.__new__(System)
@@ -283,109 +219,372 @@ class System:
         other.problem = Problem(other._question)
         return other
 
-    def _ask(self, settings):
+    def _ask(self, settings, inputs=()):
         """The problem of a question about this system."""
         given = {key: value for key, value in settings.items() if value is not None}
         for key in ("until", "step", "accuracy"):
             if key in given:
-                given[key] = _positive(key, given[key])
+                given[key] = positive(key, given[key])
         if "options" in given:
-            given["options"] = ", ".join(filter(None, [self._question.get("options"), _pairs("options", given["options"])]))
-        return Problem(dict(self._question, **given)) if given else self.problem
+            given["options"] = ", ".join(filter(None, [self._question.get("options"), pairs_text("options", given["options"])]))
+        return drive(Problem(dict(self._question, **given)), inputs) if given or inputs else self.problem
 
     # ---- questions ----
 
-    def analyze(self, accuracy=None, until=None, options=None, progress=None):
-        """Currents and their symmetries.  progress(doing, part) is called now and then, part being None where it is not known."""
+    def analyze(self, accuracy: Optional[float] = None, until: Optional[float] = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None) -> Analysis:
+        """Currents and their symmetries.
+
+        Parameters
+        ----------
+        accuracy : float, optional
+            The largest allowed error of motions.
+        until : float, optional
+            The end of motions; left out: that of the files, or 10.
+        options : mapping or str, optional
+            Numerical options (docs/options.md), {"seed": 3}.
+        progress : callable, optional
+            progress(doing, part) is called now and then; part is None where it is not known.
+
+        Returns
+        -------
+        Analysis
+
+        Examples
+        --------
+        >>> nhsym.system("damped_oscillator").analyze()
+        <Analysis of damped_oscillator: FOUND, 2 independent currents of at most 2, search complete>
+        """
         p = self._ask(dict(accuracy=accuracy, until=until, options=options))
         return p.call(lambda error: library().nh_analyze(p.address, error), progress, lambda a: Analysis(a, p))
 
-    def verify(self, current=None, field=None, options=None, progress=None):
-        """Is `current` conserved (an expression)?  Is `field` a symmetry ({"Z0": 1, "x": "x'"}, or "Z0=1; x=x'")?"""
+    def verify(self, current: Optional[Expression] = None, field: Any = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None) -> Verification:
+        """Is a function conserved, or a field a symmetry?
+
+        Parameters
+        ----------
+        current : expression
+            Is it conserved?
+        field : mapping or str
+            Is it a symmetry?  {"Z0": 1, "x": "x'"}, or "Z0=1; x=x'".
+        options : mapping or str, optional
+            Numerical options (docs/options.md), {"seed": 3}.
+        progress : callable, optional
+            progress(doing, part) is called now and then; part is None where it is not known.
+
+        Returns
+        -------
+        Verification
+            True where it holds.
+
+        Examples
+        --------
+        >>> bool(nhsym.system("sleigh").verify("m*v"))
+        False
+        >>> nhsym.system("free_particle").verify(field={"y": 1})
+        <Verification: holds, proved>
+        """
         if (current is None) == (field is None):
             raise UsageError("verify what?", 'verify("m*x\'"), or verify(field={"x": 1})')
         p = self._ask(dict(options=options))
         parts = [] if field is None or isinstance(field, str) else pairs_of("field", field, """give components, {"x": 1}, or a text, "Z0=1; x=x'\"""")
-        text = _bytes(text_of(current) if field is None else field if isinstance(field, str) else "; ".join("%s=%s" % (_name(k), text_of(e)) for k, e in parts))
+        text = bytes_of(text_of(current) if field is None else field if isinstance(field, str) else "; ".join("%s=%s" % (name_of(k), text_of(e)) for k, e in parts))
         ask = library().nh_verify_current if field is None else library().nh_verify_field
         return p.call(lambda error: ask(p.address, text, error), progress, lambda a: Verification(a, p))
 
-    def simulate(self, initial=None, until=None, step=None, accuracy=None, method=None, watch=None, options=None, progress=None, events=None, section=None,
-                 project=False):
-        """A motion: initial={"phi": 0, "omega": 2} (left out: a state on the constraints); watch=["y"] or {"T": "m/2*v^2"}; accuracy: the largest allowed error;
-        method: an integrator by name, as `nhsym explain methods` lists them; events=["y = 0, falling, stop"]: zeros that are recorded, or end the motion; section="x": a
-        Poincare section, whose points are `section_table`; project: an initial state that violates the constraints is moved onto them."""
-        p = self._ask(dict(initial=_pairs("initial", initial), until=until, step=step, accuracy=accuracy, method=method, watch=_list("watch", watch), options=options, project=project or None))
-        events, section = _bytes(_list("events", events, "; ")), _bytes(section if section is None else text_of(section))
+    def simulate(self, initial: Optional[Pairs] = None, until: Optional[float] = None, step: Optional[float] = None, accuracy: Optional[float] = None,
+                 method: Optional[str] = None, watch: Optional[Expressions] = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None,
+                 events: Optional[Names] = None, section: Optional[Expression] = None, project: bool = False,
+                 inputs: Optional[Mapping[Any, Input]] = None) -> Simulation:
+        """A motion.
+
+        Parameters
+        ----------
+        initial : mapping or str, optional
+            A state, {"phi": 0, "omega": 2}; left out: one on the constraints.
+        until : float, optional
+            The end of motions; left out: that of the files, or 10.
+        step : float, optional
+            Between rows of the table; left out: a hundredth of the time.
+        accuracy : float, optional
+            The largest allowed error of motions.
+        method : str, optional
+            An integrator that `nhsym explain methods` lists; left out: the one that suits.
+        watch : list or mapping, optional
+            Columns besides the time: ["y"], or {"T": "m/2*v^2"}.
+        options : mapping or str, optional
+            Numerical options (docs/options.md), {"seed": 3}.
+        progress : callable, optional
+            progress(doing, part) is called now and then; part is None where it is not known.
+        events : list of str, optional
+            Zeros that are recorded, or end the motion: ["y = 0, falling, stop"].
+        section : expression, optional
+            A Poincare section, "x", whose points are `Simulation.section_table`.
+        project : bool
+            An initial state that violates the constraints is moved onto them.
+        inputs : mapping, optional
+            Parameters as functions of time: {"u": "sin(t)"}, an expression of t and the other parameters; times and
+            values, {"u": ([0, 1, 2], [0, 5, 5])}, the broken line, constant before and after; or a function of Python,
+            which is evaluated at 1000 times until the end, between which it is a broken line.
+
+        Returns
+        -------
+        Simulation
+
+        Examples
+        --------
+        >>> motion = nhsym.system("sleigh").simulate(initial={"omega": 2}, until=5)
+        >>> list(motion.table)[:4], len(motion["t"])
+        (['t', 'phi', 'x', 'y'], 101)
+        """
+        p = self._ask(dict(initial=pairs_text("initial", initial), until=until, step=step, accuracy=accuracy, method=method, watch=list_text("watch", watch), options=options, project=project or None),
+                      input_texts(inputs or {}, lambda name: times_until(name, until, initial)))
+        events, section = bytes_of(list_text("events", events, "; ")), bytes_of(section if section is None else text_of(section))
         return p.call(lambda error: library().nh_simulate_zeros(p.address, events, section, error), progress, lambda a: Simulation(a, p))
 
-    def reduce(self, initial=None, until=None, accuracy=None, options=None, progress=None):
-        """The symmetry group and the reduced equations."""
-        p = self._ask(dict(initial=_pairs("initial", initial), until=until, accuracy=accuracy, options=options))
+    def reduce(self, initial: Optional[Pairs] = None, until: Optional[float] = None, accuracy: Optional[float] = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None) -> Reduction:
+        """The symmetry group and the reduced equations.
+
+        Parameters
+        ----------
+        initial : mapping or str, optional
+            A state, {"phi": 0, "omega": 2}; left out: one on the constraints.
+        until : float, optional
+            The end of motions; left out: that of the files, or 10.
+        accuracy : float, optional
+            The largest allowed error of motions.
+        options : mapping or str, optional
+            Numerical options (docs/options.md), {"seed": 3}.
+        progress : callable, optional
+            progress(doing, part) is called now and then; part is None where it is not known.
+
+        Returns
+        -------
+        Reduction
+
+        Examples
+        --------
+        >>> nhsym.system("knife_edge").reduce().group.dimension > 0
+        True
+        """
+        p = self._ask(dict(initial=pairs_text("initial", initial), until=until, accuracy=accuracy, options=options))
         return p.call(lambda error: library().nh_reduce(p.address, error), progress, lambda a: Reduction(a, p))
 
-    def classify(self, over, shape=False, options=None, progress=None):
-        """The values of the parameter `over` at which there are more conservation laws."""
-        p = self._ask(dict(options=options))
-        return p.call(lambda error: library().nh_classify_over(p.address, _bytes(_list("over", over)), bool(shape), error), progress, lambda a: Classification(a, p))
+    def classify(self, over: Names, shape: bool = False, options: Optional[Pairs] = None, progress: Optional[Progress] = None) -> Classification:
+        """The values of parameters at which there are more conservation laws.
 
-    def benchmark(self, seconds=None, initial=None, until=None, options=None, progress=None, method=None, robustness=False, over=None, project=False):
-        """Integrators compared on one motion; `seconds` for the measurements (5); method: only these, a name or a list of names that `nhsym explain methods` lists;
-        robustness: also maps of where methods fail; over: one such map, over one or two ranges, {"a": "1e-9:1"} or "a=1e-9:1"; project: as for `simulate`."""
-        p = self._ask(dict(initial=_pairs("initial", initial), until=until, options=options, project=project or None))
-        words = [_bytes(_list("method", method)), _bytes(_pairs("over", over))]
-        asked = Comparison(0 if seconds is None else _positive("seconds", seconds), words[0], bool(robustness), words[1])
+        Parameters
+        ----------
+        over : str or list
+            Parameters.
+        shape : bool
+            Only currents whose coefficients do not depend on cyclic coordinates.
+        options : mapping or str, optional
+            Numerical options (docs/options.md), {"seed": 3}.
+        progress : callable, optional
+            progress(doing, part) is called now and then; part is None where it is not known.
+
+        Returns
+        -------
+        Classification
+
+        Examples
+        --------
+        >>> plane = nhsym.System(coordinates=["x", "y"], parameters={"k": 3}, lagrangian="(x'^2 + y'^2)/2 - (x^2 + k*y^2)/2")
+        >>> 1.0 in plane.classify("k", options={"degree": 2}).table["value"]
+        True
+        """
+        p = self._ask(dict(options=options))
+        return p.call(lambda error: library().nh_classify_over(p.address, bytes_of(list_text("over", over)), bool(shape), error), progress, lambda a: Classification(a, p))
+
+    def benchmark(self, seconds: Optional[float] = None, initial: Optional[Pairs] = None, until: Optional[float] = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None,
+                  method: Optional[Names] = None, robustness: bool = False, over: Optional[Pairs] = None, project: bool = False) -> Benchmark:
+        """Integrators compared on one motion.
+
+        Parameters
+        ----------
+        seconds : float, optional
+            For the measurements; left out: 5.
+        initial : mapping or str, optional
+            A state, {"phi": 0, "omega": 2}; left out: one on the constraints.
+        until : float, optional
+            The end of motions; left out: that of the files, or 10.
+        options : mapping or str, optional
+            Numerical options (docs/options.md), {"seed": 3}.
+        progress : callable, optional
+            progress(doing, part) is called now and then; part is None where it is not known.
+        method : str or list, optional
+            Only these, which `nhsym explain methods` lists.
+        robustness : bool
+            Also maps of where methods fail.
+        over : mapping or str, optional
+            One such map, over one or two ranges: {"a": "1e-9:1"}.
+        project : bool
+            An initial state that violates the constraints is moved onto them.
+
+        Returns
+        -------
+        Benchmark
+
+        Examples
+        --------
+        >>> comparison = nhsym.system("damped_oscillator").benchmark(0.1, method="rk8pd", initial={"x": 1}, until=1)
+        >>> len(comparison.table["error"]) > 2
+        True
+        """
+        p = self._ask(dict(initial=pairs_text("initial", initial), until=until, options=options, project=project or None))
+        words = [bytes_of(list_text("method", method)), bytes_of(pairs_text("over", over))]
+        asked = Comparison(0 if seconds is None else positive("seconds", seconds), words[0], bool(robustness), words[1])
         return p.call(lambda error: library().nh_benchmark_methods(p.address, asked, error), progress, lambda a: Benchmark(a, p))
 
-    def linearize(self, at=None, over=None, project=False, options=None, progress=None):
-        """The linear equations of motion at the state at={"x'": 5} (what is left out is 0, or follows from the constraints), or over="x'=0:10:101", values of a parameter, a
-        coordinate or a velocity; project: positions and velocities that violate the constraints are moved onto them."""
-        p = self._ask(dict(initial=_pairs("at", at), options=options, project=project or None))
-        over = _bytes(_pairs("over", over))
+    def linearize(self, at: Optional[Pairs] = None, over: Optional[Pairs] = None, project: bool = False, options: Optional[Pairs] = None, progress: Optional[Progress] = None) -> Linearization:
+        """The linear equations of motion at a state, or along a family of states.
+
+        Parameters
+        ----------
+        at : mapping or str, optional
+            The state, {"x'": 5}; what is left out is 0, or follows from the constraints.
+        over : mapping or str, optional
+            Values of a parameter, a coordinate or a velocity: {"x'": "0:10:101"}.
+        project : bool
+            Positions and velocities that violate the constraints are moved onto them.
+        options : mapping or str, optional
+            Numerical options (docs/options.md), {"seed": 3}.
+        progress : callable, optional
+            progress(doing, part) is called now and then; part is None where it is not known.
+
+        Returns
+        -------
+        Linearization
+
+        Examples
+        --------
+        >>> nhsym.system("double_pendulum").linearize({"p": "pi", "q": "pi"}).verdict
+        'unstable'
+        """
+        p = self._ask(dict(initial=pairs_text("at", at), options=options, project=project or None))
+        over = bytes_of(pairs_text("over", over))
         return p.call(lambda error: library().nh_linearize(p.address, over, error), progress, lambda a: Linearization(a, p))
 
     # ---- functions in other languages ----
 
-    def export(self, to, folder=None, of=None, input=None, name=None, options=None, progress=None):
-        """Equations, currents and reductions as code that needs no nhsym: to="c", "python", "sympy", "matlab", "latex" or "json".  The text; with `folder`, files there,
-        whose paths are returned.  of: parts, ["equations", "currents"] (all); input: parameters that a controller changes, ["u"]; name: what all names begin with."""
+    def export(self, to: str, folder: Union[None, str, os.PathLike] = None, of: Optional[Names] = None, input: Optional[Names] = None,
+               name: Optional[str] = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None) -> Any:
+        """Equations, currents and reductions as code that needs no nhsym.
+
+        Parameters
+        ----------
+        to : str
+            "c", "python", "sympy", "matlab", "latex" or "json".
+        folder : str or path, optional
+            Where the files are written.
+        of : str or list, optional
+            Parts, ["equations", "currents"]; left out: all.
+        input : str or list, optional
+            Parameters that a controller changes, ["u"].
+        name : str, optional
+            What all names begin with.
+        options : mapping or str, optional
+            Numerical options (docs/options.md), {"seed": 3}.
+        progress : callable, optional
+            progress(doing, part) is called now and then; part is None where it is not known.
+
+        Returns
+        -------
+        str, or list of paths
+            The text; with `folder` the paths of the files.
+
+        Examples
+        --------
+        >>> code = nhsym.system("damped_oscillator").export("python", of="equations")
+        >>> "def accelerations(" in code
+        True
+        """
         if not isinstance(to, str):
             raise unfit("to", to, "give a language: c, python, sympy, matlab, latex or json")
         p = self._ask(dict(options=options))
-        words = [_bytes(word) for word in (to, _list("of", of), _list("input", input), None if name is None else text_of(name))]
+        words = [bytes_of(word) for word in (to, list_text("of", of), list_text("input", input), None if name is None else text_of(name))]
         code = p.call(lambda error: library().nh_export_functions(p.address, *words, error), progress, lambda a: Code(a))
         return code.text if folder is None else code.write(folder)
 
     # ---- equations of motion on arrays ----
 
-    @functools.cached_property
-    def _rates(self):
-        return self.problem.call(lambda error: library().nh_rates_create(self.problem.address, error))
+    _written: Any = None  # the equations that were asked for last, and their inputs
 
-    def accelerations(self, q, v, t=0.0):
-        """Of all coordinates, at positions q and velocities v that satisfy the constraints: arrays with one row per coordinate; nan where they are not determined."""
+    def _rates(self, inputs, t):
+        def times(name):
+            at = numpy.unique(array_of("t", t))
+            if len(at) > MOST:
+                raise UsageError("the input %s is a function of Python, and there are %d times; %d are allowed" % (name, len(at), MOST), "write it as an expression of t or as a table")
+            return at
+        given = input_texts(inputs or {}, times)
+        if self._written is None or self._written[0] != given:
+            self._written = given, Rates(drive(Problem(self._question), given) if given else self.problem)
+        return self._written[1]
+
+    def accelerations(self, q: Numbers, v: Numbers, t: Numbers = 0.0, inputs: Optional[Mapping[Any, Input]] = None) -> numpy.ndarray:
+        """The accelerations of all coordinates, by the equations of motion.
+
+        Parameters
+        ----------
+        q, v : array of shape (m,), (m, count), ..
+            Positions and velocities that satisfy the constraints, one row per coordinate.
+        t : float or array
+            Times, of the other axes' shape.
+        inputs : mapping, optional
+            Parameters as functions of time, as for `simulate`; a function of Python is evaluated at the times t.
+
+        Returns
+        -------
+        array
+            Of the shape of q; nan where they are not determined.
+
+        Examples
+        --------
+        >>> nhsym.system("sleigh").accelerations([0, 0, 0], [2, 0, 0])
+        array([0., 4., 0.])
+        """
         m = len(self.coordinates)
-        q, v, t, count, shape = _arrays(q, v, t, m)
+        q, v, t, count, shape = arrays_of(q, v, t, m)
         out = numpy.empty((m, count))
-        rates = self._rates
         with self._lock:
-            library().nh_rates_at(rates, count, None if t is None else t.ctypes.data, q.ctypes.data, v.ctypes.data, out.ctypes.data)
+            rates = self._rates(inputs, 0.0 if t is None else t)
+            library().nh_rates_at(rates.address, count, None if t is None else t.ctypes.data, q.ctypes.data, v.ctypes.data, out.ctypes.data)
         return out.reshape((m,) + shape)
 
-    def right_hand_side(self, t, y):
-        """y' of y = (positions, velocities), as scipy.integrate.solve_ivp takes it, also vectorized."""
+    def right_hand_side(self, t: Numbers, y: Numbers, inputs: Optional[Mapping[Any, Input]] = None) -> numpy.ndarray:
+        """y' of y = (positions, velocities), as scipy.integrate.solve_ivp takes it, also vectorized.
+
+        Parameters
+        ----------
+        t : float or array
+            Times.
+        y : array of shape (2 m,), (2 m, count), ..
+            Positions, then velocities.
+        inputs : mapping, optional
+            As for `accelerations`.
+
+        Returns
+        -------
+        array
+            Of the shape of y.
+
+        Examples
+        --------
+        >>> nhsym.system("sleigh").right_hand_side(0, [0, 0, 0, 2, 0, 0])
+        array([2., 0., 0., 0., 4., 0.])
+        """
         y = array_of("y", y)
         m = len(self.coordinates)
         if y.ndim == 0 or y.shape[0] != 2 * m:
             raise UsageError("y has the shape %s" % (y.shape,), "give %d positions, then as many velocities" % m)
-        return numpy.concatenate([y[m:], self.accelerations(y[:m], y[m:], t)])
+        return numpy.concatenate([y[m:], self.accelerations(y[:m], y[m:], t, inputs)])
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
         if name in ("code", "to_c", "codegen", "generate_code"):
             raise AttributeError("there is no `%s` here; did you mean `export(\"c\")`?" % name)
         raise no_attribute(self, name, [word for word in dir(self) if not word.startswith("_")])
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return "<System %s: coordinates %s; %s>" % (self.name, ", ".join(self.coordinates), ", ".join("%s = %g" % p for p in self.parameters.items()))

@@ -12,8 +12,10 @@ KINDS = (("_repr_svg_", "image/svg+xml"), ("_repr_latex_", "text/latex"), ("_rep
 
 
 def shown(value):
-    """What a notebook would show of a value: its best form, and its text."""
+    """What a notebook would show of a value: all that it offers at once, or its best form and its text."""
     data = {"text/plain": repr(value)}
+    if hasattr(value, "_repr_mimebundle_"):
+        return value._repr_mimebundle_()
     for method, kind in KINDS:
         form = getattr(value, method, lambda: None)()
         if form and len(form) < 100000:  # a whole page would swell the file

@@ -1,4 +1,7 @@
 """Results as objects."""
+import base64
+import re
+import sys
 import warnings
 
 import numpy
@@ -87,11 +90,12 @@ def test_a_motion(sleigh, analysis):
     assert set(watched.table) == {"t", "T"}
     with pytest.raises(nhsym.UsageError, match="watch"):
         watched.states()
-    assert motion.plot("x", "y")._repr_svg_().startswith("<svg") and motion.plot("t", "x", "y")._repr_html_().count("<svg") == 2
+    assert motion.plot("x", "y")._repr_svg_().startswith("<svg") and motion.plot("t", "x", "y")._repr_html_().count("<img") == 2
     with pytest.raises(nhsym.UsageError, match="zz"):
         motion.plot("zz")
-    with pytest.raises(nhsym.UsageError, match="did you mean `x'`"):
-        motion.plot("t", "x_dot")
+    assert motion.plot("t", "x_dot")._repr_svg_().partition("</title>")[2] == motion.plot("t", "x'")._repr_svg_().partition("</title>")[2]
+    with pytest.raises(nhsym.UsageError, match="did you mean `x_dot`"):
+        motion.plot("t", "xdot")
 
 
 def test_a_motion_that_ends_early_says_so():
@@ -154,7 +158,7 @@ def test_tables_make_data_frames(analysis):
 
 
 def test_documents(analysis, sleigh, tmp_path):
-    assert analysis.text == str(analysis) and "FOUND" in analysis.text and analysis.latex.startswith("%")
+    assert "FOUND" in analysis.text and analysis.latex.startswith("%")
     assert 'srcdoc="&lt;!DOCTYPE' in analysis._repr_html_() and analysis._repr_latex_().count("&=") == len(analysis.currents)
     for ending in ("html", "tex", "json", "txt"):
         analysis.save(tmp_path / ("result." + ending))
@@ -177,3 +181,65 @@ def test_linear_equations_at_a_state_and_along_a_family():
     family = pendulum.linearize({"p": "pi", "q": "pi"}, over={"g": "-1,1"})
     assert [change["positive_after"] for change in family.changes] == [2] and len(family.at(0)["eigenvalues"]) == 4
     assert list(family.table["verdict"]) == ["marginal", "unstable"]
+
+
+def test_columns_have_the_names_of_the_csv_and_of_the_language(tmp_path):
+    """Also where expressions are watched, and where two columns have one name."""
+    sleigh = nhsym.system("sleigh")
+    for settings in ({}, {"watch": ["x'", "x'^2 + 1", "sin(phi)"]}, {"watch": {"E": "v"}}):
+        motion = sleigh.simulate(initial={"omega": 2}, until=1, step=0.5, **settings)
+        motion.save(tmp_path / "motion.csv")
+        header, *rows = (tmp_path / "motion.csv").read_text().splitlines()
+        assert list(motion.table) == header.split(",")
+        values = numpy.array([[float(cell) for cell in row.split(",")] for row in rows])
+        assert (values == numpy.array(list(motion.table.values())).T).all()
+        names = [nhsym._library.library().nh_simulation_column(motion._address, i).decode() for i in range(len(motion.table))]
+        assert all(name in motion.table and motion.table.get(name) is motion[name] for name in names)
+    frame = pytest.importorskip("pandas").DataFrame(sleigh.simulate(until=1).table)
+    assert "phi_dot" in frame and "phi'" not in frame
+    with pytest.raises(KeyError, match="did you mean `x_dot`"):
+        motion = sleigh.simulate(until=1).table["dx"]
+
+
+def test_what_is_printed_is_short(sleigh, analysis):
+    motion, crowd = sleigh.simulate(until=5), nhsym.system("isotropic_oscillator")
+    for result in (analysis, motion, sleigh.verify("m*v"), nhsym.system("knife_edge").reduce(), crowd.analyze(options={"degree": 1}), crowd.simulate(until=1), nhsym.system("double_pendulum").linearize()):
+        assert 2 <= len(str(result).splitlines()) <= 12 and max(map(len, str(result).splitlines())) <= 120 and "\n" not in repr(result)
+        assert "`text`" in str(result) or str(result) == result.text.rstrip()
+    assert analysis["Phi1"].formula in str(analysis) and "101 rows" in str(motion) and "3.5" not in repr(motion)
+
+
+class Axes:
+    """As Matplotlib's: what was drawn."""
+
+    def __init__(self):
+        self.drawn = []
+
+    def plot(self, x, y, *more, **words):
+        self.drawn.append((len(x), len(y)))
+
+    def __getattr__(self, name):
+        return lambda *given: None
+
+
+def test_pictures_survive_and_matplotlib_draws(sleigh, monkeypatch):
+    motion = sleigh.simulate(initial={"omega": 2}, until=1)
+    bundle = motion.plot("x", "y")._repr_mimebundle_()
+    assert set(bundle) == {"text/plain", "text/html", "image/svg+xml"} and "<script" not in str(bundle) and "<svg" not in bundle["text/html"]
+    inside = re.search('base64,([^"]*)"', bundle["text/html"]).group(1)
+    assert base64.b64decode(inside).decode() == bundle["image/svg+xml"]
+    assert set(motion.plot("x", "y")._repr_mimebundle_(include=["text/plain"])) == {"text/plain"}
+    axes, pendulum = Axes(), nhsym.system("double_pendulum")
+    assert motion.plot("t", "x", "x'", ax=axes) is axes and axes.drawn == [(101, 101)] * 2
+    for result in (pendulum.linearize(), pendulum.linearize(over={"g": "1:9:3"}), sleigh.benchmark(0.1, method="rk8pd")):
+        drawn = len(axes.drawn)
+        assert result.plot(ax=axes) is axes and len(axes.drawn) > drawn
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(nhsym.UsageError, match="python3-matplotlib"):
+        motion.plot(ax=True)
+    with pytest.raises(nhsym.UsageError, match="axes of Matplotlib"):
+        motion.plot(ax=7)
+
+
+def test_a_part_whose_key_is_a_formula_elsewhere_has_attributes(analysis):
+    assert analysis.constraint.type == "linear" and analysis.constraint.growth_vector == [2, 3]

@@ -218,3 +218,65 @@ def test_the_readme_of_the_package():
     printed = []
     exec(words.split("```python\n")[1].split("```")[0], {"print": lambda *given: printed.append(given)})
     assert any("sin(phi/k)" in line[1] and line[2] == "proved" for line in printed)
+
+
+DRIVEN = "name: driven\nparameters: [{name: m, value: 2}, {name: k, value: 8}, {name: u, value: 0}]\ncoordinates: [x]\nlagrangian: m*x'^2/2 - k*x^2/2\nforces: [x = u]\n"
+
+
+def test_inputs_over_time():
+    """2 x'' + 8 x = u from rest at 0.  u = 2 sin t: x = (sin(t) - sin(2t)/2)/3; u = 8 from t = 0 on: x = 1 - cos(2t); a ramp u = 8t: x = t - sin(2t)/2."""
+    driven = nhsym.system(DRIVEN)
+    rest, cases = {"x": 0, "x'": 0}, [
+        ("2*sin(t)", lambda t: (numpy.sin(t) - numpy.sin(2 * t) / 2) / 3, 1e-9), (2 * sympy.sin(t), lambda t: (numpy.sin(t) - numpy.sin(2 * t) / 2) / 3, 1e-9),
+        (lambda t: 2 * numpy.sin(t), lambda t: (numpy.sin(t) - numpy.sin(2 * t) / 2) / 3, 1e-5), (8, lambda t: 1 - numpy.cos(2 * t), 1e-9),
+        (([0, 3], [0, 24]), lambda t: t - numpy.sin(2 * t) / 2, 1e-9), (([0], [8]), lambda t: 1 - numpy.cos(2 * t), 1e-9)]
+    for u, exact, error in cases:
+        motion = driven.simulate(initial=rest, until=3, step=0.5, inputs={"u": u})
+        assert motion.complete and len(motion["t"]) == 7 and motion["x"] == pytest.approx(exact(motion["t"]), abs=error)
+    late = driven.simulate(initial=rest, until=3, step=0.5, inputs={"u": ([1, 1.5, 2], [0, 8, 0])})
+    assert abs(late["x"][late["t"] <= 1]).max() < 1e-12 and abs(late["x"][-1]) > 0.1
+    assert driven.simulate(initial=rest, until=1)["x"][-1] == 0  # the system itself remains as it was
+    early = driven.simulate(initial=dict(rest, t=-2), until=1, inputs={"u": lambda t: 8 * (t + 2)})
+    assert early["x"][-1] == pytest.approx(3 - numpy.sin(6) / 2, abs=1e-9)
+
+
+def test_accelerations_with_inputs():
+    driven = nhsym.system(DRIVEN)
+    times = numpy.array([[0.0, 1.0, 2.0], [0.5, 1.5, 1.0]])
+    q, v = numpy.full((1, 2, 3), 0.25), numpy.zeros((1, 2, 3))
+    for u in ("3*t", 3 * t, lambda x: 3 * x, ([0, 4], [0, 12]), ([0, 1, 4], [0, 3, 12])):
+        assert driven.accelerations(q, v, times, inputs={"u": u})[0] == pytest.approx((3 * times - 2) / 2, abs=1e-12)
+        assert driven.right_hand_side(1.0, [0.25, 0.0], inputs={"u": u}) == pytest.approx([0, 0.5], abs=1e-12)
+    assert driven.accelerations(q, v, times)[0] == pytest.approx(numpy.full((2, 3), -1))
+    assert driven.accelerations(q, v, times, inputs={"u": "3*t"})[0][0, 0] == pytest.approx(-1) and driven.accelerations([0.25], [0.0]) == pytest.approx([-1])
+
+
+def test_inputs_that_do_not_fit_are_refused_kindly():
+    driven = nhsym.system(DRIVEN)
+    for inputs, said in (({"uu": "sin(t)"}, "`uu`"), ({"u": "sin(tt)"}, "`tt`"), ({"u": ([0, 0], [1, 2])}, "rising times"), ({"u": ([0, 1], [1])}, "rising times"), ({"u": [1, 2, 3]}, "cannot be"),
+                         ({"u": ([0, float("nan")], [1, 2])}, "rising times"), ({"u": None}, "expression is needed"), ("u=1", "cannot be"), ({"u": (numpy.arange(1001), numpy.arange(1001))}, "1000 are allowed")):
+        for ask in (lambda: driven.simulate(initial={"x": 1}, until=1, inputs=inputs), lambda: driven.accelerations([1], [0], inputs=inputs)):
+            with pytest.raises(nhsym.Error, match=said) as error:
+                ask()
+            assert error.value.hint and "--" not in str(error.value), str(error.value)
+    with pytest.raises(nhsym.UsageError, match="end of the motion"):
+        driven.simulate(inputs={"u": abs})
+    with pytest.raises(nhsym.UsageError, match="1000 are allowed"):
+        driven.accelerations(numpy.zeros((1, 1001)), numpy.zeros((1, 1001)), numpy.arange(1001), inputs={"u": abs})
+    with pytest.raises(ZeroDivisionError):
+        driven.simulate(until=1, inputs={"u": lambda t: 1 / 0})
+    with pytest.raises(nhsym.ArgumentError, match="did you mean `inputs`"):
+        driven.simulate(input={"u": "t"})
+    assert driven.accelerations([1], [0]) == pytest.approx([-4])
+
+
+def test_a_scan_asks_at_every_point():
+    spring = nhsym.system(OSCILLATOR)
+    table = spring.scan({"k": "0.1:0.5:5", "m": [1, fractions.Fraction(1, 2)]}, {"rate": lambda s: s.accelerations([1.0], [0.0])[0], "name": lambda s: s.name})
+    assert list(table) == ["k", "m", "rate", "name"] and list(table["k"][::2]) == [0.1, 0.2, 0.3, 0.4, 0.5]
+    assert table["rate"] == pytest.approx(-table["k"] / table["m"]) and set(table["name"]) == {"spring"}
+    assert list(spring.scan({"k": "1, 5/2"}, lambda s: s.parameters["k"])["number"]) == [1, 2.5]
+    for over, number in (({"k": "1:2"}, abs), ({"k": "1:2:1"}, abs), ({"k": "a:b:3"}, abs), ({"k": 7}, abs), ("k=1", abs), ({"k": [1]}, "independent"), ({"q": [1]}, abs)):
+        with pytest.raises(nhsym.Error) as error:
+            spring.scan(over, number)
+        assert error.value.hint
