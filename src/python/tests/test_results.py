@@ -29,7 +29,7 @@ def states(system, count=300):
 
 
 def test_currents(analysis):
-    assert analysis.verdict == "FOUND" and analysis.independent == 3 and analysis.most == 5
+    assert analysis.verdict == "FOUND" and analysis.independent == 5 and analysis.most == 5
     energy = analysis["Phi1"]
     assert energy is analysis.currents[0] and energy.proved and energy.for_all and "energy" in energy.meaning and energy.case == 1
     assert energy.symmetry.components["t"] == "1"
