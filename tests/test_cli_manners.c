@@ -485,7 +485,7 @@ Test(cli_manners, a_file_of_another_name_is_found)
 Test(cli_manners, initial_values_as_newcomers_write_them)
 {
     place p = place_make();
-    check_hint(&p, "simulate sleigh --initial phi=1,5", 2, "\nhint: decimals stand behind a point: phi=1.5\n");
+    check_hint(&p, "simulate sleigh --initial phi=1,5", 2, "\nhint: use a decimal point: phi=1.5\n");
     check_hint(&p, "simulate sleigh --initial phi=1,dotx=2", 2, "\nhint: the velocity of `x` is written x'\n");
     check_hint(&p, "simulate sleigh --initial phi=1=2", 2, "\nhint: commas separate the values: phi=0, omega=2\n");
     check_hint(&p, "simulate sleigh --initial phi=0,omga=2", 2, "nhsym: --initial:7: `omga` is not a coordinate or velocity of sleigh\n  phi=0,omga=2\n        ^\nhint: did you mean `omega`?\n");
@@ -525,11 +525,11 @@ Test(cli_manners, numbers_as_others_write_them)
 {
     place p = place_make();
     write_here(&p, "comma.yaml", "name: c\nparameters:\n  m: 0,5\ncoordinates: [x]\nlagrangian: m*x'^2/2\n");
-    check_hint(&p, "simulate sleigh --until 1,5", 2, "\nhint: decimals stand behind a point: 1.5\n");
+    check_hint(&p, "simulate sleigh --until 1,5", 2, "\nhint: use a decimal point: 1.5\n");
     check_hint(&p, "simulate sleigh --until 5s", 2, "\nhint: numbers stand here without units: 5\n");
     check_hint(&p, "simulate sleigh --set m=2.5kg", 2, "\nhint: numbers stand here without units: 2.5\n");
-    check_hint(&p, "simulate sleigh --set m=0,5", 2, "\nhint: decimals stand behind a point: --set m=0.5\n");
-    check_hint(&p, "simulate comma.yaml", 3, "\nhint: decimals stand behind a point: 0.5\n");
+    check_hint(&p, "simulate sleigh --set m=0,5", 2, "\nhint: use a decimal point: --set m=0.5\n");
+    check_hint(&p, "simulate comma.yaml", 3, "\nhint: use a decimal point: 0.5\n");
     place_clear(&p);
 }
 

@@ -150,7 +150,7 @@ Test(deck, explains_expressions_that_yaml_takes_for_something_else)
         {"%x: 1\n", "f.yaml:1:1: YAML reads a line that begins with `%` as a directive\n  %x: 1\n  ^\nhint: " QUOTE},
         {"a: b: c\n", "f.yaml:1:5: this `:` is not allowed here\n  a: b: c\n      ^\nhint: write `a: {b: c}`"},
         {"a: - x\n", "f.yaml:1:4: a list item `- ` is not allowed here\n  a: - x\n     ^\nhint: begin the list on a line of its own, or put the expression in double quotes"},
-        {"a: 1\nb:2\n", "f.yaml:2:1: expected `key: value`\n  b:2\n  ^\nhint: a blank stands behind the colon: `b: 2`"},
+        {"a: 1\nb:2\n", "f.yaml:2:1: expected `key: value`\n  b:2\n  ^\nhint: write a space after the colon: `b: 2`"},
         {"a: \"x\\q\"\n", "f.yaml:1:6: " ESCAPE "\n  a: \"x\\q\"\n       ^\nhint: " BACKSLASH},
         {"a: \"\\xq\"\n", "f.yaml:1:5: " ESCAPE "\n  a: \"\\xq\"\n      ^\nhint: " BACKSLASH},
         {"a: \"\\ud800\"\n", "f.yaml:1:5: " ESCAPE "\n  a: \"\\ud800\"\n      ^\nhint: " BACKSLASH},

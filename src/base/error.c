@@ -89,7 +89,7 @@ bool nh_error_hint_number(nh_error *error, const char *written)
     size_t sign = strspn(written, "+-"), whole = sign + strspn(written + sign, digits);
     if (whole == sign) return false;
     if (written[whole] == ',' && strspn(written + whole + 1, digits))
-        return nh_error_hint(error, "decimals stand behind a point: %.*s.%s", (int)whole, written, written + whole + 1);
+        return nh_error_hint(error, "use a decimal point: %.*s.%s", (int)whole, written, written + whole + 1);
     size_t number = whole + (written[whole] == '.') + strspn(written + whole + (written[whole] == '.'), digits);
     const char *unit = written + number + strspn(written + number, " ");
     bool other = (strchr("eE", *unit) && strpbrk(unit, digits)) || strchr("xX", *unit) || !strncmp(unit, "pi", 2);

@@ -119,13 +119,13 @@ const char *nh_cli_command_near(const char *word);
 
 /* name, what follows it, meaning, an example */
 #define NH_CLI_COMMAND_TABLE(X)                                                                                                                      \
-    X(analyze,  "SYSTEM|FILE", "find conserved quantities and the symmetries behind them", "nhsym analyze sleigh --html report.html")                     \
+    X(analyze,  "SYSTEM|FILE", "find conserved quantities and their symmetries", "nhsym analyze sleigh --html report.html")                     \
     X(verify,   "SYSTEM|FILE", "is this conserved? is this a symmetry?", "nhsym verify sleigh --current \"m*v*sin(phi/k) + m*a*k*omega*cos(phi/k)\"") \
     X(simulate, "SYSTEM|FILE", "compute a motion: a table, CSV or JSON", "nhsym simulate sleigh --initial \"phi=0, omega=2\" --until 5 --step 0.1 > motion.csv")                  \
     X(benchmark,    "SYSTEM|FILE", "compare integrators on one motion", "nhsym benchmark sleigh --budget 1s --svg sleigh.svg")                \
-    X(reduce,   "SYSTEM|FILE", "find the symmetry group and the reduced equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
-    X(classify, "SYSTEM|FILE", "find parameter values with additional conservation laws", "nhsym classify penning_trap --over w --degree 2") \
-    X(scan,     "SYSTEM|FILE", "sweep parameters over a grid, and find where numbers jump", "nhsym scan sleigh --over k=1:4:61 -o scan") \
+    X(reduce,   "SYSTEM|FILE", "find the symmetry group, reduce the equations", "nhsym reduce vertical_disk --group \"1, 2\"")                          \
+    X(classify, "SYSTEM|FILE", "find parameters at which more is conserved", "nhsym classify penning_trap --over w --degree 2") \
+    X(scan,     "SYSTEM|FILE", "numbers over a grid of parameters, and jumps", "nhsym scan sleigh --over k=1:4:61 -o scan") \
     X(linearize, "SYSTEM|FILE", "linear equations at a state, and stability", "nhsym linearize sleigh --at \"v=1\"") \
     X(export,   "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code") \
     X(list,     "[WORD]",      "list the available systems, or those with a word", "nhsym list pendulum")                                                                                  \

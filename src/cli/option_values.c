@@ -21,7 +21,7 @@ static bool assignment(nh_cli *cli, const char *text, const char *option, char *
         const nh_setting *last = cli->ask.settings ? &cli->ask.setting[cli->ask.settings - 1] : NULL;
         bool number = nh_text_to_number(text, &half);
         if (number && last && !last->input && !strcmp(option, "set")) /* g=9,81 */
-            return nh_error_hint(error, "decimals stand behind a point: --set %s=%g.%s", last->name, last->value, text);
+            return nh_error_hint(error, "use a decimal point: --set %s=%g.%s", last->name, last->value, text);
         return number
                    ? nh_error_hint(error, "commas stand between values, and decimals behind a point: 0.5")
                    : false;

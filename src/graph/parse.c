@@ -246,7 +246,7 @@ static bool ambiguous_quotient(parser *p, const quotient *q)
                                              : strcspn(p->text + next, " \t\r\n+-*/^(),=;"));
     snprintf(whole, sizeof whole, "(%.*s*%.*s)", (int)(q->end - begin), p->text + begin, (int)(to - next),
              p->text + next);
-    nh_parse_fail(p, next, "this product behind a quotient can be read in two ways");
+    nh_parse_fail(p, next, "this product after a quotient can be read in two ways");
     return nh_parse_propose_two(p, (nh_parse_change){q->end, next, "*"}, (nh_parse_change){begin, to, whole});
 }
 

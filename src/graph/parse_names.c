@@ -105,7 +105,7 @@ static bool function_power(parser *p, const char *name, size_t start, nh_ex *exp
     nh_function f;
     char inverse[32];
     snprintf(inverse, sizeof inverse, "a%.20s", name);
-    nh_parse_fail(p, start, "an exponent behind the name of a function is a number above 0");
+    nh_parse_fail(p, start, "an exponent after the name of a function must be a number above 0");
     return p->text[at] == '-' && p->text[at + 1] == '1' && nh_name_is_function(inverse, &f)
                ? nh_parse_hint(p, "write `%s(...)`, or `1/%s(...)`", inverse, name)
                : nh_parse_hint(p, "write `%s(...)^(...)`", name);

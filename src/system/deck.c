@@ -127,7 +127,7 @@ static void hint_colon(const nh_deck_node *node, nh_error *error)
     const char *source = node->deck->source + node->begin, *rest = strchr(source, '=') + 1;
     rest += strspn(rest, " ");
     int length = (int)strcspn(rest, "\r\n");
-    nh_error_hint(error, "a colon stands behind a key: `%.*s: %.*s`", (int)word, text, length, rest);
+    nh_error_hint(error, "write a colon after the key: `%.*s: %.*s`", (int)word, text, length, rest);
 }
 
 bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind, const char *what, nh_error *error)

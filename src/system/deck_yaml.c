@@ -125,10 +125,10 @@ static bool hint_line(const nh_deck *deck, size_t at, nh_error *error)
     int length = (int)(source + end - rest), word = (int)(key - at);
     if (length <= 0 || length > 120) return false;
     if (source[next] == '=')
-        return nh_error_hint(error, "a colon stands behind a key: `%.*s: %.*s`", word, source + at, length, rest), true;
+        return nh_error_hint(error, "write a colon after the key: `%.*s: %.*s`", word, source + at, length, rest), true;
     if (source[next] != ':') return false;
     if (source[next + 1] != ' ')
-        return nh_error_hint(error, "a blank stands behind the colon: `%.*s: %.*s`", word, source + at, length, rest),
+        return nh_error_hint(error, "write a space after the colon: `%.*s: %.*s`", word, source + at, length, rest),
                true;
     const char *value = nh_arena_strndup(deck->arena, rest, (size_t)length);
     return strchr(value, ':') && !strpbrk(value, "{}[]\"'") &&

@@ -225,7 +225,7 @@ static bool no_parameters(nh_deck *deck, nh_error *error)
     if (first) {
         bool some = nh_deck_get(root, "parameters") != NULL;
         nh_deck_fail(deck, first, 0, error, "unknown key `%s`", first->text);
-        nh_error_hint(error, some ? "parameters stand together; add to `parameters:` the entries {%s}"
+        nh_error_hint(error, some ? "list all parameters together: add to `parameters:` the entries {%s}"
                                   : "parameters: {%s}", nh_text_string(&line));
     }
     nh_text_clear(&line);

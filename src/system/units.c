@@ -355,6 +355,6 @@ bool nh_unit_hint(const char *text, nh_error *error)
     nh_unit_fault fault;
     if (!number || !text[number + blank] || !nh_is_unit(text + number + blank, &fault)) return false;
     error->hint[0] = 0;
-    return nh_error_hint(error, "a unit stands beside its number: {value: %.*s, unit: %s}", (int)number, text,
+    return nh_error_hint(error, "write the unit next to its number: {value: %.*s, unit: %s}", (int)number, text,
                          text + number + blank);
 }
