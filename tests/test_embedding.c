@@ -471,7 +471,7 @@ static const struct {
     {"parameters: {e: %s}\nconstraints: [\"z' = y*x'\", \"z' = y*x' + e*s'\"]\n", "rank 1"},
     {"parameters: {e: %s}\nconstraints: [\"z' = x' + s'\", \"x' = s' - e*y'\", \"z' = 2*s'\"]\n", "rank 2"},
     {"constraints: [\"z' + s' = x'\", \"z' + (1 + %s)*s' = y*x'\"]\ndependent: [z, s]\n", "do not determine"},
-    {"constraints: [\"z' = x'\", \"z' = x' + %s*y' + 1e-12\"]\n", "have no solution"},
+    {"constraints: [\"z' = x'\", \"z' = x' + %s*y' + 1e-12\"]\n", "no common solution"},
     {"constraints: [\"z' = sqrt(2)*x'\", \"sqrt(3)*z' = (sqrt(6) + %s)*x'\"]\n", "rank 1"},
 };
 

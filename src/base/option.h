@@ -81,7 +81,7 @@
     X(benchmark_columns, 220,    2,      5000,  whole, "columns",  "benchmark: largest ansatz of the discrete problem")                      \
     X(check_work,       4000,    1,      1e9,   real,  "millions", "of units of work that the motions of the check may take together")       \
     X(scan_columns,     120,     2,      5000,  whole, "columns",  "scan: largest ansatz space whose smallest singular value is followed")   \
-    X(scan_root,        1e-6,    1e-14,  1,     real,  "",         "scan: a minimum of a singular value below this part of its size beside it is a root") \
+    X(scan_root,        1e-6,    1e-14,  1,     real,  "",         "scan: a minimum of a singular value is a root if it is below this fraction of the neighbouring values") \
     X(until,            10,      -1e9,   1e9,   real,  "time",     "end of the validation motion")
 
 typedef enum { NH_OPTION_real, NH_OPTION_whole } nh_option_kind;

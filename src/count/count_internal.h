@@ -14,7 +14,7 @@ typedef struct {
     size_t *index;           /* indices in the question's list */
     size_t *failed;          /* number of points at which it could not be evaluated */
     nh_ex *current, *slope;  /* slope: d current/d w, n each */
-    bool *named;             /* has named functions, which stand for any solutions of their equations */
+    bool *named;             /* contains named functions; each represents any solution of its equation */
     nh_ex *rate;             /* Gamma of these: it must vanish for every such solution */
     bool unnamed;            /* currents with named functions are left out */
     /* the equations left coordinates out (turned_translations.h), and no integral of this degree is linear in them */

@@ -11,7 +11,9 @@
 #include "document/sheet.h"
 #include "document/symmetry_words.h"
 #include "graph/print.h"
+#include "integrals/fixed.h"
 #include "integrals/real_where.h"
+#include "search/explicit_motion.h"
 
 enum { formula_lines = 6, short_lines = 2, few_equations = 8 };
 
@@ -75,7 +77,10 @@ static void headline(const screen *x)
     else
         nh_text_addf(&words, "%zu independent conserved quantit%s found. At most %zu can exist.", n,
                      n == 1 ? "y was" : "ies were", most);
-    if (r->count && r->motion) nh_text_add(&words, " The motion is known in closed form.");
+    const nh_explicit_motion *m = r->motion;
+    if (r->count && m && m->proved && m->known == m->states && !m->integrals)
+        nh_text_addf(&words, " The motion is known in closed form%s%s%s.", m->fixed ? " for " : "",
+                     m->fixed ? nh_fixed_text(r->model, m->fixed) : "", m->region ? ", piece by piece" : "");
     if (*left_open(r)) nh_text_addf(&words, " %s", left_open(r));
     say(x, 0, &words);
 }
@@ -214,7 +219,7 @@ static void put_quantity(const screen *x, size_t k)
     nh_text_init(&symmetry);
     bool written = !f->series && x->list.stands[k];
     x->written[k] = put_formula(x, k + 1, label_of(r, f), written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL,
-                                f->series ? "a series with proved bounds (--details)" : "a long formula (--details)");
+                                f->series ? "a series (--details)" : "a long formula (--details)");
     bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry);
     put_meaning(r, f, rotations, &words);
     bool follows = f->independence == NH_DEPENDENT;
@@ -340,16 +345,21 @@ static void motion(const screen *x)
 {
     const nh_analysis *r = x->r;
     const nh_validation *v = r->validation;
-    double worst = -1;
-    for (size_t k = 0; k < r->count && v; k++)
-        if (isfinite(r->found[k].drift.drift[NH_DRIFT_RUNS - 1]))
-            worst = fmax(worst, r->found[k].drift.drift[NH_DRIFT_RUNS - 1]);
-    if (worst < 0) return;
+    double worst = 0;
+    size_t measured = 0;
+    for (size_t k = 0; k < r->count && v; k++) {
+        double drift = r->found[k].drift.drift[NH_DRIFT_RUNS - 1];
+        if (isfinite(drift)) worst = fmax(worst, drift), measured++;
+    }
+    if (!measured) return;
     nh_text words;
     nh_text_init(&words);
-    nh_text_addf(&words, "Along a computed motion (t = %.4g to %.4g) %s by ", v->begin, v->end,
-                 r->count > 1 ? "they change" : "it changes");
-    nh_text_addf(&words, "%s%.2g of %s size.", r->count > 1 ? "at most " : "", worst, r->count > 1 ? "their" : "its");
+    nh_text_addf(&words, "Along a computed motion (t = %.4g to %.4g) ", v->begin, v->end);
+    if (measured < r->count) nh_text_addf(&words, "%zu of them could be followed: %s", measured,
+                                          measured > 1 ? "they change" : "it changes");
+    else nh_text_add(&words, measured > 1 ? "they change" : "it changes");
+    nh_text_addf(&words, " by %s%.2g, relative to %s terms.", measured > 1 ? "at most " : "", worst,
+                 measured > 1 ? "their" : "its");
     double other = v->multistep ? v->multistep_difference : v->multiplier_form ? v->state_difference : NAN;
     if (isfinite(other)) nh_text_addf(&words, " Another method gives the same motion to %.2g.", other);
     say(x, 0, &words);
@@ -398,7 +408,7 @@ static void more(const screen *x)
 {
     const nh_analysis *r = x->r;
     nh_text_addf(x->out, "\nMore: --details   symmetries, equations%s, checks, the search\n",
-                 r->motion ? ", the solution" : r->model->k ? ", constraint forces" : "");
+                 r->motion ? ", the motion" : r->model->k ? ", constraint forces" : "");
     nh_text_add(x->out, "      --html FILE the same, with the motion, in a page\n");
 }
 

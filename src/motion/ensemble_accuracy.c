@@ -16,7 +16,7 @@ static const double most_left = 0.05;
 static const double most_step = 1e-5; /* smallest factor from one tolerance to the next */
 
 static const double passes = 2.3;     /* cost of all runs of an ensemble, relative to that of the first */
-static const double slower = 10;      /* a member may need so many times the counted work of the first */
+static const double slower = 10;      /* a member may take up to this many times the work of the first */
 static const double most_told = 1000;  /* reports give no larger ratio */
 enum { samples = 2 };                 /* members beside the first that are computed alone to measure their cost */
 

@@ -19,7 +19,7 @@ typedef struct {
     size_t m, f, n, d;     /* coordinates, constraints, shape, group; m = n + d */
     size_t *shape, *along; /* n, d coordinate indices: x and y */
     double *y0;            /* d */
-    nh_ex *y;              /* d: the same as expressions, exact where they are whole numbers or pi/2 */
+    nh_ex *y;              /* d: the same as expressions, exact for integers and pi/2 */
     bool tidy;             /* all of them are exact, so that simplifying expressions is useful */
     nh_ex *x;              /* n symbols */
     nh_ex *E;              /* m x d: generators on the slice, E[s*d + a] */
