@@ -91,7 +91,7 @@ Test(first_screen, quantities_are_told_in_the_words_of_mechanics)
         {"sleigh", {"All 5 conserved quantities", "1 to 4 are proved for all m, a, k; 5 for k = 2", "Follows from the others.",
                     "The constraint y' = x'*tan(phi) is nonholonomic.", "x' = v*cos(phi)"}},
         {"henon_heiles", {"Only the energy is conserved", "Nothing else is conserved among polynomials in the velocities up to degree 6", "y'' = y^2 - y - x^2"}},
-        {"rolling_disk", {"3 independent conserved quantities were found. At most 8 can exist.  1  E"}}, /* of its motion some states only are known */
+        {"rolling_disk", {"3 independent conserved quantities were found. At most 8 can exist.\n 1  E"}}, /* of its motion some states only are known */
         {"lagrange_top", {"p_s = ", "Angular momentum conjugate to s. From turning s."}},
     };
     place p = place_with_systems();
