@@ -78,7 +78,7 @@ BROWSER       = chromium
 PYTHON_PACKAGES = python3-numpy python3-sympy python3-pytest python3-setuptools python3-wheel python3-pandas
 
 MODULES = $(filter-out src/cli/%,$(wildcard src/*/*.c))
-OBJECTS = $(MODULES:%.c=$(BUILD)/%.o)
+OBJECTS = $(MODULES:%.c=$(BUILD)/%.o) $(BUILD)/page.o
 # The program; MPI's has another main function.
 CLI     = $(patsubst %.c,$(BUILD)/%.o,$(filter-out src/cli/mpi_main.c,$(wildcard src/cli/*.c))) $(BUILD)/fingerprint.o
 TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
@@ -255,6 +255,13 @@ $(BUILD)/flags: FORCE
 	@mkdir -p $(@D)
 	@echo '$(FLAGS)' | cmp -s - $@ || echo '$(FLAGS)' >$@
 FORCE:
+
+# What a page carries with it: style, scripts, font.
+$(BUILD)/page.c: $(wildcard src/document/page/*)
+	@mkdir -p $(@D)
+	@sh src/document/page/embed.sh src/document/page >$@
+$(BUILD)/page.o: $(BUILD)/page.c $(BUILD)/flags
+	@$(COMPILE) -c $< -o $@
 
 $(BUILD)/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)

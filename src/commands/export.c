@@ -252,11 +252,13 @@ nh_export *nh_export_create(const nh_export_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_export *x = nh_arena_alloc(arena, sizeof *x);
-    unsigned wanted;
+    unsigned wanted = 0;
     *x = (nh_export){.arena = arena, .command = q->command, .written = q->options.shown, .seed = q->options.seed};
     if (q->to) x->to = nh_arena_strdup(arena, q->to);
     if (q->name) x->name = nh_arena_strdup(arena, q->name);
-    bool good = read_parts(x, q->of, &wanted, error);
+    bool js = q->to && !strcmp(q->to, "js"); /* one model, of a motion with its currents */
+    bool good = js && q->of ? nh_fail(error, NH_USAGE, "--of", "--to js writes one model: leave out --of")
+                            : read_parts(x, js ? "currents" : q->of, &wanted, error);
     if (good) x->system = x->own = nh_system_read(q->system_path, q->settings, q->setting, error);
     good = good && x->own && nh_system_needs_values(x->own, "the code", error) && read_inputs(x, q->input, error) &&
            gather(x, q, wanted, error);

@@ -88,7 +88,7 @@ static void headline(const screen *x)
 /* ---- the quantities ---- */
 
 /* Its sign as readers know it: E and not -E. */
-static nh_ex shown(const nh_analysis *r, const nh_current *f)
+nh_ex nh_answer_shown(const nh_analysis *r, const nh_current *f)
 {
     nh_dag *d = r->model->dag;
     nh_ex e = strncmp(f->meaning, "minus", 5) ? f->phi : nh_neg(d, f->phi);
@@ -96,7 +96,7 @@ static nh_ex shown(const nh_analysis *r, const nh_current *f)
     return nh_formula_shortened(r->analysis, d, nh_chart_shown(chart, e));
 }
 
-static const char *label_of(const nh_analysis *r, const nh_current *f)
+const char *nh_answer_label(const nh_analysis *r, const nh_current *f)
 {
     nh_dag *d = r->model->dag;
     if (is_energy(f) && !nh_depends(d, f->phi, nh_symbol(d, "E"))) return "E = ";
@@ -149,7 +149,7 @@ static void put_where(const nh_analysis *r, const nh_current *f, nh_text *out)
 }
 
 /* How sure it is: of a proved one " for all m, k" or "", after "proved"; of another one a sentence. */
-static const char *proof_of(const nh_analysis *r, const nh_current *f)
+const char *nh_answer_proof(const nh_analysis *r, const nh_current *f)
 {
     nh_text out;
     nh_text_init(&out);
@@ -198,7 +198,7 @@ static void put_proofs(const screen *x)
 }
 
 /* "Energy.", "Momentum of x." */
-static void put_meaning(const nh_analysis *r, const nh_current *f, bool rotations, nh_text *out)
+void nh_answer_meaning(const nh_analysis *r, const nh_current *f, bool rotations, nh_text *out)
 {
     const char *m = strncmp(f->meaning, "minus the ", 10) ? f->meaning : f->meaning + 10;
     const char *of = strstr(m, "momentum of ") == m ? m + strlen("momentum of ") : NULL;
@@ -218,10 +218,10 @@ static void put_quantity(const screen *x, size_t k)
     nh_text_init(&words);
     nh_text_init(&symmetry);
     bool written = !f->series && x->list.stands[k];
-    x->written[k] = put_formula(x, k + 1, label_of(r, f), written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL,
+    x->written[k] = put_formula(x, k + 1, nh_answer_label(r, f), written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL,
                                 f->series ? "a series (--details)" : "a long formula (--details)");
     bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry);
-    put_meaning(r, f, rotations, &words);
+    nh_answer_meaning(r, f, rotations, &words);
     bool follows = f->independence == NH_DEPENDENT;
     if (symmetry.length && !x->terse && !follows) nh_text_addf(&words, "From %s. ", nh_text_string(&symmetry));
     if (follows) nh_text_add(&words, "Follows from the others. ");
@@ -268,9 +268,9 @@ static void put_regions(const screen *x)
         const nh_current *f = &r->piece[k];
         nh_text words;
         nh_text_init(&words);
-        put_formula(x, r->count + k + 1, "", nh_print_short(r->model->dag, shown(r, f), r->options.shown),
+        put_formula(x, r->count + k + 1, "", nh_print_short(r->model->dag, nh_answer_shown(r, f), r->options.shown),
                     "a long formula (--details)");
-        nh_text_addf(&words, "Constant only %s. %s%s.", f->region, f->proof.proved ? "Proved" : "", proof_of(r, f));
+        nh_text_addf(&words, "Constant only %s. %s%s.", f->region, f->proof.proved ? "Proved" : "", nh_answer_proof(r, f));
         say(x, r->count + k < 9 ? 3 : 4, &words);
     }
 }
@@ -280,7 +280,7 @@ static void quantities(screen *x)
     const nh_analysis *r = x->r;
     nh_ex *e = nh_alloc_array(r->count + 1, sizeof *e);
     size_t names = 0;
-    for (size_t k = 0; k < r->count; k++) e[k] = shown(r, &r->found[k]);
+    for (size_t k = 0; k < r->count; k++) e[k] = nh_answer_shown(r, &r->found[k]);
     x->list = nh_formula_list_make(r->model->dag, r->count, e, r->options.shown, &names);
     if (r->count) nh_text_add(x->out, "\n");
     for (size_t k = 0; k < r->count; k++) put_quantity(x, k);
@@ -448,7 +448,7 @@ void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
     x.proof = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.proof);
     x.written = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.written);
     for (size_t k = 0; k < r->count; k++) {
-        x.proof[k] = proof_of(r, &r->found[k]);
+        x.proof[k] = nh_answer_proof(r, &r->found[k]);
         x.all_proved = x.all_proved && r->found[k].proof.proved && !r->found[k].series;
     }
     write(&x);

@@ -3,6 +3,7 @@
 
 #include "document/analysis_answer.h"
 #include "document/analysis_outline_internal.h"
+#include "document/analysis_stage.h"
 #include "document/facts.h"
 #include "document/geometry_sheet.h"
 #include "document/motion_sheet.h"
@@ -107,7 +108,8 @@ void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
         return;
     }
     nh_pen pen, *p = &pen;
-    nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total};
+    nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total,
+                  r->system_words};
     const nh_chart *chart = r->other && r->other->chart->roots ? r->other->chart : r->model->chart;
     nh_pen_subject subject = {.system = r->system,
                               .analysis = r->analysis,
@@ -117,6 +119,8 @@ void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
                               .written = r->options.written};
     nh_pen_begin(p, style, &subject, NULL, out);
     answer(p, r);
+    nh_stage *stage = p->ink->stage ? nh_analysis_stage(r, &run) : NULL;
+    if (stage) p->ink->stage(p->to, stage);
     links(p, r);
     for (size_t i = 0; i < r->warnings; i++) warning(p, r, r->warning[i]);
     nh_analysis_write_currents(p, r);
@@ -130,4 +134,5 @@ void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
         p, "current, symmetry, case, distribution, projectable, independent, local, residual, drift, gap, multiplier, "
            "nonholonomic, growth");
     nh_pen_end(p, &run);
+    nh_analysis_stage_free(stage);
 }
