@@ -84,9 +84,9 @@ static void links(nh_pen *p, const nh_analysis *r)
 {
     nh_text sections;
     nh_text_init(&sections);
-    nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|%s%ssearch|%s|words|Words|repeat|Repeat it",
-                 r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "",
-                 r->motion ? "explicit|Explicit motion|" : "", r->theory ? "geometry|Geometry|" : "",
+    nh_text_addf(&sections, "system|System|%scurrents|Currents|%s%s%ssearch|%s|words|Words|repeat|Repeat it",
+                 r->theory ? "geometry|Geometry|" : "", r->motion ? "explicit|Explicit motion|" : "",
+                 r->validation ? "motion|Validation|" : "", r->figures ? "figures|Figures|" : "",
                  r->count ? "How it was found" : "The search");
     p->ink->links(p->to, nh_text_string(&sections));
     nh_text_clear(&sections);
@@ -99,6 +99,26 @@ static void explicit_motion(nh_pen *p, const nh_analysis *r)
     sheet->section->title = ""; /* the section of the document has one */
     nh_pen_section(p, "explicit", "Explicit motion");
     nh_pen_sheet(p, sheet);
+}
+
+static void as_a_paper(nh_pen *p, const nh_analysis *r)
+{
+    nh_pen_system(p, r->model, r);
+    nh_pen_geometry(p, r->arena, r->theory);
+    nh_analysis_write_currents(p, r);
+    explicit_motion(p, r);
+    nh_analysis_write_motion(p, r);
+    nh_analysis_write_figures(p, r);
+}
+
+/* First what was asked. */
+static void on_a_terminal(nh_pen *p, const nh_analysis *r)
+{
+    nh_analysis_write_currents(p, r);
+    nh_analysis_write_motion(p, r);
+    nh_pen_system(p, r->model, r);
+    explicit_motion(p, r);
+    nh_pen_geometry(p, r->arena, r->theory);
 }
 
 void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
@@ -123,16 +143,12 @@ void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
     if (stage) p->ink->stage(p->to, stage);
     links(p, r);
     for (size_t i = 0; i < r->warnings; i++) warning(p, r, r->warning[i]);
-    nh_analysis_write_currents(p, r);
-    nh_analysis_write_motion(p, r);
-    nh_analysis_write_figures(p, r);
-    nh_pen_system(p, r->model, r);
-    explicit_motion(p, r);
-    nh_pen_geometry(p, r->arena, r->theory);
+    if (p->ink->brief) on_a_terminal(p, r);
+    else as_a_paper(p, r);
     nh_analysis_write_search(p, r);
     nh_pen_glossary(
         p, "current, symmetry, case, distribution, projectable, independent, local, residual, drift, gap, multiplier, "
            "nonholonomic, growth");
     nh_pen_end(p, &run);
-    nh_analysis_stage_free(stage);
+    nh_stage_free(stage);
 }

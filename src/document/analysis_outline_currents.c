@@ -278,7 +278,7 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *
     const nh_validation *v = r->validation;
     double drift = f->drift.drift[NH_DRIFT_RUNS - 1];
     nh_pen_card(p, NULL);
-    nh_pen_name_heading(p, f->name);
+    nh_pen_name_heading(p, nh_arena_printf(r->arena, "q-%s", f->name), f->name);
     tags(p, r, f);
     if (f->relation) p->ink->equation(p->to, "", f->relation);
     if (f->series) nh_analysis_write_series(p, r, f);
@@ -310,7 +310,7 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *
 static void uncounted(nh_pen *p, const nh_analysis *r, const nh_current *f, const char *property)
 {
     nh_pen_card(p, NULL);
-    nh_pen_name_heading(p, f->name);
+    nh_pen_name_heading(p, NULL, f->name);
     nh_pen_open(p, NH_PEN_TAGS, NULL, NULL);
     nh_pen_open(p, NH_PEN_TAG, NULL, NULL);
     nh_pen_theory(p, property);

@@ -73,10 +73,3 @@ nh_stage *nh_analysis_stage(const nh_analysis *r, const nh_run *run)
                     .row = row};
     return s;
 }
-
-void nh_analysis_stage_free(nh_stage *s)
-{
-    if (!s) return;
-    nh_time_series_free((nh_time_series *)s->series);
-    nh_live_free(s->live);
-}

@@ -240,7 +240,7 @@ static void row(nh_html_writer *w, const nh_stage *s, const nh_formula_list *lis
                  "<tr data-quantity=\"%zu\" style=\"--k:var(--c%zu)\"><th scope=\"row\"><span class=\"nm\"><span "
                  "class=\"key\"></span><span>",
                  k, 1 + k % colours);
-    if (*r->anchor) nh_text_addf(w->out, "<a href=\"#%s\">", r->anchor);
+    if (*r->anchor) nh_text_addf(w->out, "<a href=\"#%s\" aria-label=\"to the details\">", r->anchor);
     if (*r->name) words(w, r->name);
     else nh_html_source(w, s->live->quantity[k].name);
     nh_html_add(w, *r->anchor ? "</a>" : "");
@@ -349,6 +349,13 @@ static void picture(nh_html_writer *w, const nh_time_series *c)
                    "out\">\u2212</button><button type=\"button\" data-do=\"in\" aria-label=\"zoom in\">+</button>"
                    "<button type=\"button\" data-do=\"fit\">fit</button><button type=\"button\" data-do=\"follow\" "
                    "aria-pressed=\"false\">follow</button></div></div>\n");
+}
+
+void nh_stage_free(nh_stage *s)
+{
+    if (!s) return;
+    nh_time_series_free((nh_time_series *)s->series);
+    nh_live_free(s->live);
 }
 
 void nh_html_stage(nh_html_writer *w, const nh_stage *s)

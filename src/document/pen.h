@@ -152,7 +152,8 @@ void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(prin
 /* a cell of an open row */
 void nh_pen_cell(nh_pen *pen, nh_pen_part part, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void nh_pen_heading(nh_pen *pen, const char *title);             /* a heading within a section: it ends the card */
-void nh_pen_name_heading(nh_pen *pen, const char *name);         /* a heading within a card */
+/* a heading within a card; `id`: its place on a page, or NULL */
+void nh_pen_name_heading(nh_pen *pen, const char *id, const char *name);
 void nh_pen_code(nh_pen *pen, const char *text);
 void nh_pen_warning(nh_pen *pen, const char *text);
 void nh_pen_plot(nh_pen *pen, nh_plot *plot, const char *caption);
