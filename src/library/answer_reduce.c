@@ -19,7 +19,7 @@ static bool reduce_check(const nh_request *q, nh_error *error)
     if (nh_export_target_of(q->to, &target, error)) {
         if (target != NH_EXPORT_JS) return true;
         nh_fail(error, NH_USAGE, "--to", "reduced equations are not written in JavaScript");
-        return nh_error_hint(error, "`nhsym export %.100s --to js` writes the whole motion", q->system_path);
+        return nh_error_hint(error, "`nhsym export SYSTEM --to js` writes the whole motion");
     }
     bool near = nh_text_nearest(q->to, &only, 1) != NULL;
     if (near || !strstr(error->hint, "did you mean")) error->hint[0] = 0;
