@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "document/current_words.h"
 #include "document/facts.h"
 #include "document/formula.h"
 #include "document/screen.h"
@@ -31,11 +32,6 @@ typedef struct {
 static void say(const screen *x, size_t indent, nh_text *words) { nh_screen_say(x->out, indent, words); }
 
 /* ---- the headline ---- */
-
-static bool is_energy(const nh_current *f)
-{
-    return f->energy && (!strcmp(f->meaning, "energy") || !strncmp(f->meaning, "minus", 5));
-}
 
 static const nh_completeness *counted_first(const nh_analysis *r)
 {
@@ -71,7 +67,7 @@ static void headline(const screen *x)
     else if (n == most && n == 1)
         nh_text_addf(&words, "The only conserved quantity that can exist was found%s.", proved);
     else if (n == most) nh_text_addf(&words, "All %zu conserved quantities that can exist were found%s.", n, proved);
-    else if (n == 1 && is_energy(&r->found[0]))
+    else if (n == 1 && nh_current_is_energy(&r->found[0]))
         nh_text_addf(&words, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.",
                      most);
     else
@@ -82,50 +78,23 @@ static void headline(const screen *x)
         nh_text_addf(&words, " The motion is known in closed form%s%s%s.", m->fixed ? " for " : "",
                      m->fixed ? nh_fixed_text(r->model, m->fixed) : "", m->region ? ", piece by piece" : "");
     if (*left_open(r)) nh_text_addf(&words, " %s", left_open(r));
-    say(x, 0, &words);
+    nh_screen_begin(x->out, x->colour, r->system, NULL, &words);
 }
 
 /* ---- the quantities ---- */
 
-/* Its sign as readers know it: E and not -E. */
 static nh_ex shown(const nh_analysis *r, const nh_current *f)
 {
-    nh_dag *d = r->model->dag;
-    nh_ex e = strncmp(f->meaning, "minus", 5) ? f->phi : nh_neg(d, f->phi);
-    const nh_chart *chart = r->model->chart;
-    return nh_formula_shortened(r->analysis, d, nh_chart_shown(chart, e));
-}
-
-static const char *label_of(const nh_analysis *r, const nh_current *f)
-{
-    nh_dag *d = r->model->dag;
-    if (is_energy(f) && !nh_depends(d, f->phi, nh_symbol(d, "E"))) return "E = ";
-    const char *of = strstr(f->meaning, "momentum of ");
-    bool bare = of && (of == f->meaning || !strncmp(f->meaning, "minus the ", 10));
-    const char *p = bare ? nh_arena_printf(r->arena, "p_%s", of + strlen("momentum of ")) : NULL;
-    return p && !nh_depends(d, f->phi, nh_symbol(d, p)) ? nh_arena_printf(r->arena, "%s = ", p) : "";
+    nh_ex e = nh_chart_shown(r->model->chart, nh_current_signed(r, f, f->phi));
+    return nh_formula_shortened(r->analysis, r->model->dag, e);
 }
 
 /* "2  p_x = m*x'"; NULL: the words in its place.  Was the formula written? */
 static bool put_formula(const screen *x, size_t number, const char *label, char *formula, const char *instead)
 {
-    nh_text text, block;
-    nh_text_init(&text);
-    nh_text_init(&block);
-    nh_text_addf(&text, "%-*zu%s", number < 10 ? 3 : 4, number, label);
-    size_t head = text.length;
-    nh_text_add(&text, formula ? formula : instead);
-    nh_sheet_broken(0, NH_SCREEN_HANG + 2, nh_text_string(&text), &block);
-    size_t n = nh_screen_count(nh_text_string(&block));
-    bool written = formula && n <= (x->terse ? short_lines : formula_lines);
-    if (formula && !written) {
-        nh_text_clear(&block);
-        nh_text_addf(&block, "%.*sa formula of %zu lines (--details)\n", (int)head, nh_text_string(&text), n);
-    }
-    nh_screen_formula(x->out, x->colour, nh_text_string(&block));
+    const char *head = nh_arena_printf(x->r->arena, "%-*zu%s", number < 10 ? 3 : 4, number, label);
+    bool written = nh_screen_put(x->out, x->colour, 0, head, formula, x->terse ? short_lines : formula_lines, instead);
     nh_free(formula);
-    nh_text_clear(&text);
-    nh_text_clear(&block);
     return written;
 }
 
@@ -218,7 +187,8 @@ static void put_quantity(const screen *x, size_t k)
     nh_text_init(&words);
     nh_text_init(&symmetry);
     bool written = !f->series && x->list.stands[k];
-    x->written[k] = put_formula(x, k + 1, label_of(r, f), written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL,
+    char *formula = written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL;
+    x->written[k] = put_formula(x, k + 1, nh_current_label(r, f), formula,
                                 f->series ? "a series (--details)" : "a long formula (--details)");
     bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry);
     put_meaning(r, f, rotations, &words);
@@ -407,9 +377,10 @@ static void equations(const screen *x, size_t room)
 static void more(const screen *x)
 {
     const nh_analysis *r = x->r;
-    nh_text_addf(x->out, "\nMore: --details   symmetries, equations%s, checks, the search\n",
-                 r->motion ? ", the motion" : r->model->k ? ", constraint forces" : "");
-    nh_text_add(x->out, "      --html FILE the same, with the motion, in a page\n");
+    nh_screen_more(x->out, r->motion     ? "symmetries, equations, the motion, checks, the search"
+                           : r->model->k ? "symmetries, equations, constraint forces, checks, the search"
+                                         : "symmetries, equations, checks, the search",
+                   "--html FILE the same, with the motion, in a page");
 }
 
 static void furthers(const screen *x)
@@ -426,7 +397,6 @@ static void write(screen *x)
 {
     enum { tail = 3 };
     const nh_analysis *r = x->r;
-    nh_screen_title(r->system, x->colour, x->out);
     headline(x);
     quantities(x);
     nh_text_add(x->out, "\n");

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "document/analysis_answer.h"
+#include "document/screen.h"
 #include "document/analysis_outline_internal.h"
 #include "document/facts.h"
 #include "document/geometry_sheet.h"
@@ -102,7 +103,7 @@ static void explicit_motion(nh_pen *p, const nh_analysis *r)
 
 void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
 {
-    if (style.form == NH_PEN_TEXT && !style.verbose && !r->theory) {
+    if (nh_screen_is_wanted(style) && !r->theory) {
         nh_analysis_write_answer(r, style.colour, out);
         return;
     }
