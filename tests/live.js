@@ -19,13 +19,14 @@ for (const [dp, dv] of free ? variations : variations.slice(0, 1)) {
   let text;
   try { text = execFileSync(nhsym, line.map(String), {encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe']}); } catch (e) { if (e.status !== 5 && e.status !== 4) throw e; continue; }
   const rows = text.trim().split('\n').map(r => r.split(',')), column = k => { const c = rows[0].indexOf(k) >= 0 ? rows[0].indexOf(k) : rows[0].indexOf(k.replace("'", '_dot')); if (c < 0) throw new Error(`no column ${k}`); return c; };
+  const follows = model.tracks.map((k, j) => k.kind === 'state' || k.kind === 'energy' ? [j, column(k.name)] : null).filter(Boolean), far = follows.map(([, c]) => Math.max(1, ...rows.slice(1).map(r => Math.abs(+r[c]))));
   const at = model.state.map(column), size = at.map(c => Math.max(1e-3, ...rows.slice(1).map(r => Math.abs(+r[c])))), s = new Float64Array(model.state.length), tracks = [];
   for (const r of rows.slice(1)) {
     if (+r[0] > motion.t[motion.t.length - 1] + 1e-12) throw new Error(`ends at ${motion.t[motion.t.length - 1]}`);
     motion.at(+r[0], s);
     at.forEach((c, j) => { states = Math.max(states, Math.abs(s[j] - r[c]) / size[j]); });
     model.observe(+r[0], s, p, tracks); // what is followed: the velocities of all coordinates, the energy
-    model.tracks.forEach((k, j) => { if (k.kind !== 'state' && k.kind !== 'energy') return; const c = column(k.name); velocities = Math.max(velocities, Math.abs(tracks[j] - r[c]) / Math.max(1, Math.abs(+r[c]))); });
+    follows.forEach(([j, c], i) => { velocities = Math.max(velocities, Math.abs(tracks[j] - r[c]) / far[i]); });
   }
   if (model.currents.length) {
     const q0 = [], q = [], scale = [], most = model.currents.map(() => 0), largest = most.slice();

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "document/analysis_answer.h"
+#include "document/current_words.h"
 #include "document/live.h"
 #include "document/symmetry_words.h"
 
@@ -47,7 +48,7 @@ static nh_stage_row row_of(const nh_analysis *r, const nh_current *f)
                         .from = follows ? "" : nh_arena_strdup(r->arena, nh_text_string(&symmetry)),
                         .sure = *sure == ' ' ? sure + 1 : sure,
                         .anchor = nh_arena_printf(r->arena, "q-%s", f->name),
-                        .label = without_end(r->arena, nh_answer_label(r, f), "= "),
+                        .label = without_end(r->arena, nh_current_label(r, f), "= "),
                         .value = nh_answer_shown(r, f),
                         .proved = f->proof.proved && !(f->series && f->series->variables > 1),
                         .series = f->series != NULL,

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "document/facts.h"
 #include "document/reduction_answer.h"
+#include "document/screen.h"
 #include "document/reduction_internal.h"
 #include "document/reduction_sheet.h"
 
@@ -319,7 +320,7 @@ static void answer(nh_pen *p, const nh_reduction *r)
 
 void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style style, nh_text *out)
 {
-    if (style.form == NH_PEN_TEXT && !style.verbose && !(r->stages && r->stage[0].theory)) {
+    if (nh_screen_is_wanted(style) && !(r->stages && r->stage[0].theory)) {
         nh_reduction_write_answer(r, style.colour, out);
         return;
     }
