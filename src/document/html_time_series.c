@@ -6,7 +6,7 @@
 #include "document/html_internal.h"
 #include "document/perspective.h"
 
-enum { most_curves = 7, page_points = 140 };
+enum { most_curves = 7, page_points = 80 };
 
 /* ---- plots over time ---- */
 
