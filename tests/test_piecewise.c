@@ -444,7 +444,7 @@ Test(piecewise, the_sides_of_a_kink_are_searched)
         cr_expect_eq(r->independent, side[i].independent, "%zu: %zu", i, r->independent);
         nh_text words;
         nh_text_init(&words);
-        nh_answer_headline(r, &words);
+        nh_analysis_answer_headline(r, &words);
         if (!r->independent) cr_expect(strstr(nh_text_string(&words), "Nothing was found that is conserved along all motions."), "%s", nh_text_string(&words));
         nh_text_clear(&words);
         cr_assert_eq(r->pieces, side[i].pieces, "%zu: %zu pieces", i, r->pieces);

@@ -58,7 +58,7 @@ static bool all_proved(const nh_analysis *r)
     return all;
 }
 
-void nh_answer_headline(const nh_analysis *r, nh_text *out)
+void nh_analysis_answer_headline(const nh_analysis *r, nh_text *out)
 {
     size_t n = r->independent, most = r->local_maximum;
     const char *proved = all_proved(r) ? " and proved" : "";
@@ -89,13 +89,13 @@ static void headline(const screen *x)
 {
     nh_text words;
     nh_text_init(&words);
-    nh_answer_headline(x->r, &words);
+    nh_analysis_answer_headline(x->r, &words);
     nh_screen_begin(x->out, x->colour, x->r->system, NULL, &words);
 }
 
 /* ---- the quantities ---- */
 
-nh_ex nh_answer_shown(const nh_analysis *r, const nh_current *f)
+nh_ex nh_analysis_answer_shown(const nh_analysis *r, const nh_current *f)
 {
     nh_ex e = nh_chart_shown(r->model->chart, nh_current_signed(r, f, f->phi));
     return nh_formula_shortened(r->analysis, r->model->dag, e);
@@ -130,7 +130,7 @@ static void put_where(const nh_analysis *r, const nh_current *f, nh_text *out)
 }
 
 /* How sure it is: of a proved one " for all m, k" or "", after "proved"; of another one a sentence. */
-const char *nh_answer_proof(const nh_analysis *r, const nh_current *f)
+const char *nh_analysis_answer_proof(const nh_analysis *r, const nh_current *f)
 {
     nh_text out;
     nh_text_init(&out);
@@ -179,7 +179,7 @@ static void put_proofs(const screen *x)
 }
 
 /* "Energy.", "Momentum of x." */
-void nh_answer_meaning(const nh_analysis *r, const nh_current *f, bool rotations, nh_text *out)
+void nh_analysis_answer_meaning(const nh_analysis *r, const nh_current *f, bool rotations, nh_text *out)
 {
     const char *m = strncmp(f->meaning, "minus the ", 10) ? f->meaning : f->meaning + 10;
     const char *of = strstr(m, "momentum of ") == m ? m + strlen("momentum of ") : NULL;
@@ -203,7 +203,7 @@ static void put_quantity(const screen *x, size_t k)
     x->written[k] = put_formula(x, k + 1, nh_current_label(r, f), formula,
                                 f->series ? "a series (--details)" : "a long formula (--details)");
     bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry);
-    nh_answer_meaning(r, f, rotations, &words);
+    nh_analysis_answer_meaning(r, f, rotations, &words);
     bool follows = f->independence == NH_DEPENDENT;
     if (symmetry.length && !x->terse && !follows) nh_text_addf(&words, "From %s. ", nh_text_string(&symmetry));
     if (follows) nh_text_add(&words, "Follows from the others. ");
@@ -250,9 +250,11 @@ static void put_regions(const screen *x)
         const nh_current *f = &r->piece[k];
         nh_text words;
         nh_text_init(&words);
-        put_formula(x, r->count + k + 1, "", nh_print_short(r->model->dag, nh_answer_shown(r, f), r->options.shown),
+        char *formula = nh_print_short(r->model->dag, nh_analysis_answer_shown(r, f), r->options.shown);
+        put_formula(x, r->count + k + 1, "", formula,
                     "a long formula (--details)");
-        nh_text_addf(&words, "Constant only %s. %s%s.", f->region, f->proof.proved ? "Proved" : "", nh_answer_proof(r, f));
+        nh_text_addf(&words, "Constant only %s. %s%s.", f->region, f->proof.proved ? "Proved" : "",
+                     nh_analysis_answer_proof(r, f));
         say(x, r->count + k < 9 ? 3 : 4, &words);
     }
 }
@@ -262,7 +264,7 @@ static void quantities(screen *x)
     const nh_analysis *r = x->r;
     nh_ex *e = nh_alloc_array(r->count + 1, sizeof *e);
     size_t names = 0;
-    for (size_t k = 0; k < r->count; k++) e[k] = nh_answer_shown(r, &r->found[k]);
+    for (size_t k = 0; k < r->count; k++) e[k] = nh_analysis_answer_shown(r, &r->found[k]);
     x->list = nh_formula_list_make(r->model->dag, r->count, e, r->options.shown, &names);
     if (r->count) nh_text_add(x->out, "\n");
     for (size_t k = 0; k < r->count; k++) put_quantity(x, k);
@@ -294,7 +296,7 @@ static bool is_plain(const nh_analysis *r, const nh_completeness *c)
     return c->degree && c->linear && !c->regional && !c->count.where && !c->count.leaf && all_proved(r);
 }
 
-void nh_answer_completeness(const nh_analysis *r, nh_text *out)
+void nh_analysis_answer_completeness(const nh_analysis *r, nh_text *out)
 {
     const nh_completeness *c = counted_first(r), *time = &r->completeness[NH_COMPLETE_IN_TIME];
     if (r->search == NH_SEARCH_COMPLETE && r->independent >= r->local_maximum) return;
@@ -321,7 +323,7 @@ static void completeness(const screen *x)
 {
     nh_text words;
     nh_text_init(&words);
-    nh_answer_completeness(x->r, &words);
+    nh_analysis_answer_completeness(x->r, &words);
     say(x, 0, &words);
 }
 
@@ -433,7 +435,7 @@ void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
     screen x = {.r = r, .out = &text, .colour = colour, .all_proved = all_proved(r)};
     x.proof = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.proof);
     x.written = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.written);
-    for (size_t k = 0; k < r->count; k++) x.proof[k] = nh_answer_proof(r, &r->found[k]);
+    for (size_t k = 0; k < r->count; k++) x.proof[k] = nh_analysis_answer_proof(r, &r->found[k]);
     write(&x);
     if (nh_screen_count(nh_text_string(&text)) > NH_SCREEN_LINES) {
         nh_text_clear(&text);

@@ -26,7 +26,7 @@ static void answer_of_a_page(nh_pen *p, const nh_analysis *r)
     static const char *const class[] = {"found", "none", "undecided"};
     nh_text words;
     nh_text_init(&words);
-    nh_answer_headline(r, &words);
+    nh_analysis_answer_headline(r, &words);
     nh_pen_open(p, NH_PEN_ANSWER, class[r->verdict], NULL);
     nh_pen_say(p, "%s", nh_text_string(&words));
     nh_pen_close(p, NH_PEN_ANSWER);
@@ -34,7 +34,7 @@ static void answer_of_a_page(nh_pen *p, const nh_analysis *r)
     if (r->count && r->verdict == NH_UNDECIDED)
         nh_pen_words(p, "Not all of them are certified; each card states its certificate.");
     if (r->partial) nh_pen_warning(p, nh_facts_search(r));
-    nh_answer_completeness(r, &words);
+    nh_analysis_answer_completeness(r, &words);
     if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
     nh_text_clear(&words);
 }

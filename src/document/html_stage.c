@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "document/export_internal.h"
+#include "document/export_code.h"
 #include "document/formula.h"
 #include "document/html_internal.h"
 #include "document/live.h"
@@ -177,8 +177,7 @@ static void controls(nh_html_writer *w, const nh_stage *s, bool live)
     }
     nh_html_add(w, "<div class=\"under\">");
     if (live)
-        nh_html_add(w, "<label>tolerance <select id=\"tol\"><option>1e-4</option><option>1e-6</option><option "
-                       "selected=\"selected\">1e-9</option><option>1e-11</option></select></label>");
+        nh_html_add(w, "<label>tolerance <select id=\"tol\"></select></label>");
     nh_html_add(w, "<span id=\"told\">");
     if (!live) put_why(w, s->live);
     nh_html_add(w, "</span><button class=\"lnk\" id=\"csv\" type=\"button\">CSV</button><button class=\"lnk\" "
@@ -349,13 +348,6 @@ static void picture(nh_html_writer *w, const nh_time_series *c)
                    "out\">\u2212</button><button type=\"button\" data-do=\"in\" aria-label=\"zoom in\">+</button>"
                    "<button type=\"button\" data-do=\"fit\">fit</button><button type=\"button\" data-do=\"follow\" "
                    "aria-pressed=\"false\">follow</button></div></div>\n");
-}
-
-void nh_stage_free(nh_stage *s)
-{
-    if (!s) return;
-    nh_time_series_free((nh_time_series *)s->series);
-    nh_live_free(s->live);
 }
 
 void nh_html_stage(nh_html_writer *w, const nh_stage *s)

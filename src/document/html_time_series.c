@@ -206,7 +206,8 @@ static void still(nh_html_writer *w, const nh_time_series *c)
                     .description = "The bodies at the end of the motion in perspective, with their paths",
                     .view = view,
                     .at = c->count - 1};
-    if (view) nh_html_figure(w, &plot, "The bodies at the end of the motion, with their paths; hidden sides are faint.");
+    if (view)
+        nh_html_figure(w, &plot, "The bodies at the end of the motion, with their paths; hidden sides are faint.");
     nh_view_free(view);
 }
 

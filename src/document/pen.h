@@ -64,7 +64,7 @@ typedef struct {
     void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
     void (*table_end)(void *to);
     void (*plot)(void *to, nh_plot *plot, const char *caption);
-    void (*series)(void *to, const nh_time_series *series); /* a motion as plots over time; on pages the stage has them */
+    void (*series)(void *to, const nh_time_series *series); /* a motion as plots over time; pages have a stage */
     void (*stage)(void *to, const nh_stage *stage);         /* the motion at the top of a page; NULL: no page */
     void (*symmetry)(void *to, const nh_symmetry *symmetry); /* the symmetry in words: its case, its bracket */
     void (*glossary)(void *to, const char *words);   /* the meaning of these words; on pages only */

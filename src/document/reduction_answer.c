@@ -141,7 +141,8 @@ static void check(const nh_reduction *r, nh_text *out)
     if (printed >= 0)
         nh_text_addf(&words, "The equations as printed agree with the true accelerations to %.2g. ", printed);
     if (apart >= 0)
-        nh_text_addf(&words, "Put together again, the reduced motions differ from the full one by %.2g up to t = %.4g. ",
+        nh_text_addf(&words,
+                     "Put together again, the reduced motions differ from the full one by %.2g up to t = %.4g. ",
                      apart, reached);
     if (energy >= 0) nh_text_addf(&words, "The energy changes by %.2g.", energy);
     if (words.length) nh_text_add(out, "\n");

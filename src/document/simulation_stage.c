@@ -26,7 +26,8 @@ static void add(list *l, const nh_track *track, const nh_options *options)
     l->row[l->count++] = (nh_stage_row){.name = energy ? "Energy" : "",
                                         .doc = "",
                                         .from = energy ? "the symmetry in time" : "",
-                                        .sure = proof.all_parameters ? "for all parameter values" : "for these parameter values",
+                                        .sure = proof.all_parameters ? "for all parameter values"
+                                                                     : "for these parameter values",
                                         .anchor = "",
                                         .label = track->name,
                                         .value = track->value,
