@@ -88,6 +88,24 @@ Test(browser, a_page_without_scripts_has_its_pictures)
     place_clear(&p);
 }
 
+/* The page of a reduction, and of a question, shows the motion with the same formulas as that of `simulate`. */
+Test(browser, the_motion_of_other_pages)
+{
+    static const char *const lines[] = {"simulate crane --quiet --html page.html", "reduce crane --quiet --html page.html", "verify crane --current theta --quiet --html page.html"};
+    char *row[3] = {NULL};
+    for (size_t i = 0; i < 3; i++) {
+        place p = place_with_systems();
+        finished_clear((finished[]){run(&p, lines[i])});
+        char *text = read_here(&p, "page.html"), *at = strstr(text, "<tr data-quantity=\"0\""), *end = at ? strstr(at, "</tr>") : NULL;
+        cr_assert(end, "%s has no table of quantities", lines[i]);
+        row[i] = strndup(at, (size_t)(end - at));
+        cr_expect_str_eq(row[i], row[0], "%s", lines[i]);
+        free(text);
+        place_clear(&p);
+    }
+    for (size_t i = 0; i < 3; i++) free(row[i]);
+}
+
 /* ---- the page at work: what a script leaves in it as JSON ---- */
 
 static const cJSON *of(const cJSON *object, const char *key) { return cJSON_GetObjectItem(object, key); }

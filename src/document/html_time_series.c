@@ -227,5 +227,6 @@ void nh_html_plots(nh_html_writer *w, const nh_time_series *c)
     lines(w, c, NH_TRACK_MULTIPLIER, 0, c->lines, "Chetaev multipliers", "multiplier",
           c->model->k == 1 ? "The Chetaev multiplier over time."
                            : "Chetaev multipliers over time, in the order of the constraints.");
-    if (!c->drifts_elsewhere) constancy(w, c);
+    bool live = w->stage && !w->stage->live->why; /* such a page draws the drift */
+    if (!c->drifts_elsewhere && !live) constancy(w, c);
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "document/facts.h"
 #include "document/live.h"
 #include "document/simulation.h"
 #include "integrals/prove.h"
@@ -14,22 +15,31 @@ typedef struct {
     nh_live_quantity *quantity;
 } list;
 
+/* Is it the energy under another name? */
+static bool is_energy(const list *l, nh_ex e, const nh_options *options)
+{
+    const nh_model *o = l->s->model;
+    nh_ex term[] = {e, nh_neg(o->dag, o->E)};
+    return e == o->E || nh_prove_zero(o, 2, term, true, options).proved;
+}
+
 /* What is not proved to be conserved is only plotted. */
 static void add(list *l, const nh_track *track, const nh_options *options)
 {
+    enum { most_named = 6 }; /* parameters */
     const nh_simulation *s = l->s;
-    bool energy = track->kind == NH_TRACK_ENERGY;
+    bool energy = track->kind == NH_TRACK_ENERGY, words = strchr(track->name, ' ') != NULL;
     nh_proof proof = nh_prove_current(s->model, track->value, true, options);
-    if (!proof.proved) return;
+    if (!proof.proved || (!energy && is_energy(l, track->value, options))) return;
+    const char *sure = nh_facts_holds(s->model, &proof, s->system->parameters <= most_named);
     l->quantity[l->count] = (nh_live_quantity){.name = track->name, .value = track->value, .proved = true,
                                                .all_parameters = proof.all_parameters, .fixed = proof.fixed};
-    l->row[l->count++] = (nh_stage_row){.name = energy ? "Energy" : "",
+    l->row[l->count++] = (nh_stage_row){.name = energy ? "Energy" : words ? track->name : "",
                                         .doc = "",
                                         .from = energy ? "the symmetry in time" : "",
-                                        .sure = proof.all_parameters ? "for all parameter values"
-                                                                     : "for these parameter values",
+                                        .sure = *sure == ' ' ? sure + 1 : sure,
                                         .anchor = "",
-                                        .label = track->name,
+                                        .label = words ? "" : track->name,
                                         .value = track->value,
                                         .proved = true,
                                         .drift = NAN};
@@ -48,7 +58,7 @@ nh_stage *nh_simulation_stage(const nh_simulation *s, const nh_run *run)
     for (size_t i = 0; i < t->count; i++)
         if (t->track[i].kind == NH_TRACK_ENERGY) add(&l, &t->track[i], &options);
     for (size_t i = 0; i < t->count; i++)
-        if (t->track[i].kind == NH_TRACK_CURRENT) add(&l, &t->track[i], &options);
+        if (t->track[i].kind == NH_TRACK_CURRENT || t->track[i].kind == NH_TRACK_WATCH) add(&l, &t->track[i], &options);
     double *first = nh_arena_alloc(s->arena, (t->count + 1) * sizeof *first);
     for (size_t i = 0; i < t->count; i++) first[i] = series->line[i].value[0];
     nh_live_request request = {.model = s->model,

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "document/simulation.h"
 #include "document/facts.h"
 #include "document/screen.h"
 #include "document/sheet.h"
@@ -211,6 +212,8 @@ void nh_verification_write(const nh_verification *v, const nh_run *run, nh_pen_s
         .system = v->system, .dag = v->model->dag, .chart = nh_verification_chart(v), .shown = run->shown};
     nh_pen_begin(p, style, &subject, of_field(v) ? "is it a symmetry?" : "is it conserved?", out);
     answer(p, v);
+    nh_stage *stage = p->ink->stage && v->motion ? nh_simulation_stage(v->motion, run) : NULL;
+    if (stage) p->ink->stage(p->to, stage);
     p->ink->links(p->to,
                   v->has_counterexample
                       ? "question|The question|counterexample|Where it fails|system|System|words|Words|repeat|Repeat it"
@@ -223,4 +226,5 @@ void nh_verification_write(const nh_verification *v, const nh_run *run, nh_pen_s
     nh_pen_geometry(p, v->arena, v->theory);
     nh_pen_glossary(p, "current, symmetry, case, distribution, projectable, residual");
     nh_pen_end(p, run);
+    nh_stage_free(stage);
 }

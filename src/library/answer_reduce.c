@@ -41,7 +41,12 @@ static void reduction_free(nh_answer *a) { nh_reduction_free(a->part[0]); }
 
 static void reduction_write(const nh_answer *a, nh_pen_style style, nh_text *out)
 {
-    nh_reduction_write(a->part[0], &a->run, style, out);
+    nh_reduction *r = a->part[0];
+    nh_simulation *motion = style.form == NH_PEN_PAGE ? nh_answer_motion_of_page(a->request) : NULL;
+    r->motion = motion;
+    nh_reduction_write(r, &a->run, style, out);
+    r->motion = NULL;
+    nh_simulation_free(motion);
 }
 
 static char *reduction_json(const nh_answer *a) { return nh_reduction_json(a->part[0], &a->run); }
