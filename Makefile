@@ -15,6 +15,7 @@
 #   make parameters give every system other parameter values, compare its formulas, and write docs/parameters.md (it continues where it was stopped; SEED=N)
 #   make perturbed analyse copies of every system with a small term added, and print the table
 #   make house     count files, functions and headers, and write the tables of docs/architecture.md
+#   make site      the documentation as static pages, with a gallery, into build/site (wants pandoc and Python 3)
 #   make threads   look for data races with ThreadSanitizer: two contexts of the library, and commands with --threads 4
 #   make fuzz      feed the readers with garbage for SECONDS=60 each (needs clang)
 #   make clean
@@ -75,10 +76,11 @@ WITHOUT_MPI = $(and $(MPI),$(findstring :,$(call archive,sundials_core)))
 PACKAGES      = libgsl-dev libnlopt-dev libsundials-dev libopenblas-dev liblapacke-dev libyaml-dev libexpat1-dev libcjson-dev libflint-arb-dev,libflint-dev libflint-dev libgmp-dev
 TEST_PACKAGES = $(PACKAGES) libcriterion-dev pkg-config
 BROWSER       = chromium
+SITE_PACKAGES = pandoc
 PYTHON_PACKAGES = python3-numpy python3-sympy python3-pytest python3-setuptools python3-wheel python3-pandas
 
 MODULES = $(filter-out src/cli/%,$(wildcard src/*/*.c))
-OBJECTS = $(MODULES:%.c=$(BUILD)/%.o)
+OBJECTS = $(MODULES:%.c=$(BUILD)/%.o) $(BUILD)/page.o
 # The program; MPI's has another main function.
 CLI     = $(patsubst %.c,$(BUILD)/%.o,$(filter-out src/cli/mpi_main.c,$(wildcard src/cli/*.c))) $(BUILD)/fingerprint.o
 TESTS   = $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/test_*.c))
@@ -97,7 +99,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized
+.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house site fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -182,6 +184,12 @@ house: all
 	@sh tests/house.sh $(BUILD) >$(BUILD)/house.md
 	@sed -e '/<!-- house -->/r $(BUILD)/house.md' -e '/<!-- house -->/,/<!-- end -->/{/<!--/!d}' docs/architecture.md >$(BUILD)/architecture.md && mv $(BUILD)/architecture.md docs/architecture.md
 
+# The gallery shows these; everything else about them is the program's.
+GALLERY = sleigh euler_disk crane lagrange_top rolling_disk snakeboard rattleback chaplygin_ball double_pendulum kepler toda_lattice roller_racer
+site: all
+	@command -v pandoc >/dev/null || sh tests/packages.sh $(SITE_PACKAGES)
+	@python3 docs/site/make.py $(BUILD)/site $(BUILD)/nhsym $(GALLERY)
+
 fuzz:
 	@sh tests/packages.sh $(PACKAGES) clang
 	@sh tests/fuzz/fuzz.sh $(SECONDS)
@@ -255,6 +263,13 @@ $(BUILD)/flags: FORCE
 	@mkdir -p $(@D)
 	@echo '$(FLAGS)' | cmp -s - $@ || echo '$(FLAGS)' >$@
 FORCE:
+
+# What a page carries with it: style, scripts, font.
+$(BUILD)/page.c: $(wildcard src/document/page/*)
+	@mkdir -p $(@D)
+	@sh src/document/page/embed.sh src/document/page >$@
+$(BUILD)/page.o: $(BUILD)/page.c $(BUILD)/flags
+	@$(COMPILE) -c $< -o $@
 
 $(BUILD)/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)

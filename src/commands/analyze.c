@@ -347,6 +347,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     r->options = q->options;
     r->command = q->command ? nh_arena_strdup(r->arena, q->command) : NULL;
     r->system_path = nh_arena_strdup(r->arena, q->system_path);
+    if (q->system_words) r->system_words = nh_arena_strdup(r->arena, q->system_words);
     r->analysis_path = q->analysis_path ? nh_arena_strdup(r->arena, q->analysis_path) : NULL;
     nh_progress("the system file", -1);
     if (!read_files(r, q, error)) return false;

@@ -8,6 +8,7 @@
 typedef struct {
     const char *command;         /* as the user typed it, for reports; may be NULL */
     const char *system_path;     /* a file */
+    const char *system_words;    /* how a command line names it; NULL: by its path */
     const char *analysis_path;   /* or NULL: the program chooses */
     size_t settings;             /* --set, applied after the settings of the analysis file */
     const nh_setting *setting;

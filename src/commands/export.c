@@ -244,7 +244,8 @@ static bool gather(nh_export *x, const nh_export_request *q, unsigned wanted, nh
         if (!reduce(x, q, error)) return false;
         if (x->reduction) nh_export_stages(x, x->reduction);
     }
-    if (x->functions) return true;
+    bool model = x->to && !strcmp(x->to, "js");
+    if (x->functions || model) return true;
     return nh_fail(error, NH_NUMERIC, "", "there is nothing to export: %s", x->notes ? x->note[0] : "no part exists");
 }
 
@@ -252,11 +253,13 @@ nh_export *nh_export_create(const nh_export_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_export *x = nh_arena_alloc(arena, sizeof *x);
-    unsigned wanted;
+    unsigned wanted = 0;
     *x = (nh_export){.arena = arena, .command = q->command, .written = q->options.shown, .seed = q->options.seed};
     if (q->to) x->to = nh_arena_strdup(arena, q->to);
     if (q->name) x->name = nh_arena_strdup(arena, q->name);
-    bool good = read_parts(x, q->of, &wanted, error);
+    bool js = q->to && !strcmp(q->to, "js"); /* one model, of a motion with its currents */
+    bool good = js && q->of ? nh_fail(error, NH_USAGE, "--of", "--to js writes one model: leave out --of")
+                            : read_parts(x, js ? "currents" : q->of, &wanted, error);
     if (good) x->system = x->own = nh_system_read(q->system_path, q->settings, q->setting, error);
     good = good && x->own && nh_system_needs_values(x->own, "the code", error) && read_inputs(x, q->input, error) &&
            gather(x, q, wanted, error);

@@ -472,7 +472,8 @@ char *nh_analysis_json(const nh_analysis *r)
     nh_analysis_json_figures(r, root);
     nh_json_put_bool(root, "partial", r->partial);
     nh_run_json(
-        &(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total},
+        &(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total,
+                  NULL},
         r->system, root);
     put_timing(&r->timing, root);
     nh_json *warnings = nh_json_put_array(root, "warnings");

@@ -49,19 +49,13 @@ static void name_it(const nh_analysis *r, const nh_current *f, bool rotations, n
                 : rotations ? "Angular momentum"
                             : "";
     out->of = of ? of : "";
-    if (f->doc) {
-        out->name = !*out->name
-                        ? capital(r, f->doc)
-                        : nh_arena_printf(r->arena, "%s%s%s: %s", out->name, *out->of ? " " : "", out->of, f->doc);
-        out->of = "";
-    } else if (!*out->name && !f->series) {
-        out->name = nh_current_form(r, f->phi, &out->of);
-    }
+    if (f->doc) out->doc = *out->name ? f->doc : capital(r, f->doc);
+    else if (!*out->name && !f->series) out->name = nh_current_form(r, f->phi, &out->of);
 }
 
 nh_current_words nh_current_words_of(const nh_analysis *r, const nh_current *f, bool symmetry, const char *proof)
 {
-    nh_current_words out = {.of = "", .how = "", .what = ""};
+    nh_current_words out = {.of = "", .doc = "", .how = "", .what = ""};
     nh_text what, rest;
     nh_text_init(&what);
     nh_text_init(&rest);
@@ -87,7 +81,7 @@ nh_current_words nh_current_words_of(const nh_analysis *r, const nh_current *f, 
 bool nh_current_words_agree(const nh_current_words *a, const nh_current_words *b)
 {
     bool plain = !strstr(a->what, " and ") && !strstr(b->what, " and ");
-    return !strcmp(a->name, b->name) && !strcmp(a->how, b->how) && !strcmp(a->rest, b->rest) && !*a->of == !*b->of &&
+    return !strcmp(a->name, b->name) && !strcmp(a->doc, b->doc) && !strcmp(a->how, b->how) && !strcmp(a->rest, b->rest) && !*a->of == !*b->of &&
            !*a->what == !*b->what && (plain || !strcmp(a->what, b->what));
 }
 
@@ -108,11 +102,10 @@ static void put_each(nh_text *out, size_t n, const nh_current_words *s, bool wha
 
 void nh_current_words_put(size_t n, const nh_current_words *s, nh_text *out)
 {
-    if (*s->name) {
-        nh_text_add(out, s->name);
-        put_each(out, n, s, false);
-        nh_text_add(out, nh_text_string(out)[out->length - 1] == '.' ? " " : ". ");
-    }
+    nh_text_add(out, s->name);
+    put_each(out, n, s, false);
+    if (*s->doc) nh_text_addf(out, "%s%s", *s->name ? ": " : "", s->doc);
+    if (*s->name || *s->doc) nh_text_add(out, nh_text_string(out)[out->length - 1] == '.' ? " " : ". ");
     if (*s->how) {
         nh_text_addf(out, "From %s", s->how);
         put_each(out, n, s, true);

@@ -14,6 +14,7 @@ const char *nh_current_label(const nh_analysis *result, const nh_current *curren
 /* What is said of a quantity: "Momentum conjugate to x. From shifting x. Proved." */
 typedef struct {
     const char *name, *of;  /* "Momentum conjugate to", "x"; or "" */
+    const char *doc; /* the sentence of the system file; or "" */
     const char *how, *what; /* "shifting", "x"; or "" */
     const char *rest;       /* further sentences */
 } nh_current_words;

@@ -10,9 +10,10 @@
 #include "document/export_internal.h"
 #include "document/facts.h"
 #include "document/formula.h"
+#include "document/live.h"
 #include "document/reduction.h"
 
-static const char *const targets[] = {"c", "python", "sympy", "matlab", "latex", "json"};
+static const char *const targets[] = {"c", "python", "sympy", "matlab", "js", "latex", "json"};
 enum { target_count = sizeof targets / sizeof *targets };
 
 bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *error)
@@ -28,12 +29,13 @@ bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *erro
         nh_fail(error, NH_USAGE, "--to", "no language is given");
     /* other names of languages, and formats of their files */
     static const char *const others[][2] = {{"tex", "latex"}, {"numpy", "python"}, {"scipy", "python"},
-                                            {"cpp", "c"},     {"c++", "c"},        {"m", "matlab"}};
+                                            {"cpp", "c"},     {"c++", "c"},        {"m", "matlab"},
+                                            {"javascript", "js"}};
     for (size_t i = 0; name && i < sizeof others / sizeof *others; i++)
         if (!strcasecmp(name, others[i][0]))
             return nh_error_hint(error, "did you mean `%s`?", others[i][1]);
     return nh_error_hint_near(error, name ? name : "", targets, target_count,
-                              "--to takes c, python, sympy, matlab, latex or json");
+                              "--to takes c, python, sympy, matlab, js, latex or json");
 }
 
 bool nh_export_prefix(const nh_export *x, const char *wish, const char **out, nh_error *error)
@@ -150,6 +152,7 @@ bool nh_export_possible(const nh_export *x, nh_export_target target, nh_error *e
 {
     static const nh_source_language *const language[] = {&nh_source_c, &nh_source_python, &nh_source_sympy,
                                                          &nh_source_matlab};
+    if (target == NH_EXPORT_JS) return nh_live_possible(x->analysis, error);
     for (size_t i = 0; i < x->functions && target < NH_EXPORT_LATEX; i++) {
         nh_ex *e;
         const nh_export_function *f = &x->function[i];
@@ -178,6 +181,7 @@ void nh_export_text(const nh_export *x, nh_export_target target, const char *pre
     case NH_EXPORT_PYTHON: nh_export_python(x, prefix, false, out); break;
     case NH_EXPORT_SYMPY: nh_export_python(x, prefix, true, out); break;
     case NH_EXPORT_MATLAB: nh_export_matlab(x, prefix, out); break;
+    case NH_EXPORT_JS: nh_live_js_file(x->analysis, out); break;
     case NH_EXPORT_LATEX: nh_export_latex(x, out); break;
     case NH_EXPORT_JSON:
         nh_text_add(out, json = nh_export_json(x, run));
@@ -189,7 +193,7 @@ void nh_export_text(const nh_export *x, nh_export_target target, const char *pre
 size_t nh_export_files(const nh_export *x, nh_export_target target, const char *prefix, const nh_run *run,
                        nh_export_file out[NH_EXPORT_MOST_FILES])
 {
-    static const char *const ending[] = {".c", ".py", "_sympy.py", ".m", ".tex", ".json"};
+    static const char *const ending[] = {".c", ".py", "_sympy.py", ".m", ".js", ".tex", ".json"};
     out[0].name = nh_arena_printf(x->arena, "%s%s", prefix, ending[target]);
     nh_text_init(&out[0].text);
     if (target != NH_EXPORT_C) {

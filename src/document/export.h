@@ -11,6 +11,7 @@ typedef enum {
     NH_EXPORT_PYTHON,
     NH_EXPORT_SYMPY,
     NH_EXPORT_MATLAB,
+    NH_EXPORT_JS, /* the model of a motion alone (document/live.h) */
     NH_EXPORT_LATEX,
     NH_EXPORT_JSON
 } nh_export_target;

@@ -188,15 +188,6 @@ const char *nh_facts_which_branch(const nh_analysis *r, const nh_current *f)
 
 /* ---- the answer ---- */
 
-const char *nh_facts_nothing(const nh_analysis *r)
-{
-    if (r->verdict == NH_NONE) return "No current in this ansatz";
-    if (r->pieces) return "Undecided: no current of all motions so far";
-    if (nh_analysis_by_trial(r)) return "Undecided: no value of the unknowns that was tried gives a current";
-    return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far"
-                                                                 : "Undecided: no candidate has a certificate";
-}
-
 const char *nh_facts_between_walls(const nh_analysis *r)
 {
     const char *where = NULL;

@@ -32,7 +32,7 @@ static void add_compact(nh_text *out, const char *piece)
     }
 }
 
-/* Where a line breaks between factors the page shows a dot: the sign of a soft hyphen (html_page.c). */
+/* Where a line breaks between factors the page shows a dot: the sign of a soft hyphen (page/page.css). */
 static void write_piece(void *context, const char *piece, nh_typeset_follows follows)
 {
     nh_html_writer *w = context;

@@ -5,6 +5,7 @@
 #include "document/time_series.h"
 #include "document/html.h"
 #include "document/provenance.h"
+#include "document/stage.h"
 #include "document/svg.h"
 
 /* A page while it is being written. */
@@ -16,7 +17,8 @@ typedef struct {
     const nh_chart *chart;       /* chart whose dependent velocities replace roots; or NULL */
     double shown;                /* option `shown`: longer formulas are only in the JSON */
     double written;              /* option `written` */
-    bool space;                  /* its motion has bodies in space */
+    const nh_stage *stage;       /* the motion at its top; or NULL */
+    bool headed;                 /* is its header closed? */
     size_t figures;
     size_t names;                /* number of names of repeated parts in this card or chart so far: all are different */
     void (*sink)(void *context, const nh_plot *plot, const char *caption); /* NULL: figures are written to the page */
@@ -51,18 +53,19 @@ void nh_html_table_end(nh_html_writer *w);
  * run ---- */
 
 void nh_html_begin(nh_html_writer *w, const char *what);
+void nh_html_head_end(nh_html_writer *w); /* the end of the header; later calls do nothing */
 void nh_html_links(nh_html_writer *w, const char *sections);
 /* A section with the meaning of these words of the glossary, separated by blanks as in "current symmetry". */
 void nh_html_words(nh_html_writer *w, const char *words);
 void nh_html_repeat(nh_html_writer *w, const nh_run *run);
 void nh_html_end(nh_html_writer *w);
 
-/* The slider with the drawing, and all quantities over time. */
-void nh_html_time_series(nh_html_writer *w, const nh_time_series *course);
-
-extern const char *const nh_html_font; /* WOFF2 in base 64 */
-extern const char *const nh_html_style;
-extern const char *const nh_html_script;
-extern const char *const nh_html_space; /* for pages with bodies in space, before the other script */
+/* The motion with its quantities, at the top of a page. */
+void nh_html_stage(nh_html_writer *w, const nh_stage *stage);
+/* Of a motion: its path, or its bodies at one time; all quantities over time. */
+void nh_html_still(nh_html_writer *w, const nh_time_series *series);
+void nh_html_plots(nh_html_writer *w, const nh_time_series *series);
+/* A plot that the page's script draws anew; `what`: its heading, with the unit behind the / of `axis`. */
+void nh_html_live_figure(nh_html_writer *w, nh_plot *plot, const char *what, const char *axis);
 
 #endif

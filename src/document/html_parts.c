@@ -10,6 +10,7 @@
 #include "document/facts.h"
 #include "document/html_internal.h"
 #include "document/notation.h"
+#include "document/page.h"
 #include "document/wording.h"
 
 enum { FIGURE_ID = 40 };
@@ -169,6 +170,24 @@ void nh_html_table_end(nh_html_writer *w) { nh_html_add(w, "</tbody></table></di
 
 /* ---- a page ---- */
 
+/* "m = 2 kg, a = 1 m" behind the title. */
+static void put_values(nh_html_writer *w)
+{
+    enum { most = 8 };
+    const nh_system *s = w->system;
+    if (!s->parameters || s->parameters > most) return;
+    nh_html_add(w, " <span class=\"params\">");
+    for (size_t i = 0; i < s->parameters; i++) {
+        nh_html_add(w, i ? ", <span class=\"word\">" : "<span class=\"word\">");
+        nh_html_source(w, s->parameter[i].name);
+        nh_html_add(w, " = ");
+        nh_html_number(w, s->parameter[i].value, 6);
+        if (*s->parameter[i].unit) nh_html_add(w, "\u00a0"), nh_html_prose(w, s->parameter[i].unit);
+        nh_html_add(w, "</span>");
+    }
+    nh_html_add(w, "</span>");
+}
+
 void nh_html_begin(nh_html_writer *w, const char *what)
 {
     nh_html_add(w, "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta "
@@ -179,40 +198,52 @@ void nh_html_begin(nh_html_writer *w, const char *what)
                    "<meta name=\"generator\" content=\"nhsym " NH_VERSION "\"/>\n<title>");
     nh_html_text(w, w->system->title);
     if (what) nh_text_addf(w->out, ": %s", what);
-    nh_html_add(w, " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n@font-face{font-family:'nhsym "
-                   "math';src:url(data:font/woff2;base64,");
-    nh_html_add(w, nh_html_font);
-    nh_html_add(w, ") format('woff2')}\n");
-    nh_html_add(w, nh_html_style);
-    nh_html_add(w, "/*]]>*/</style>\n</head>\n<body>\n<main>\n<header>\n<h1>");
+    nh_text_addf(w->out,
+                 " \u2013 nhsym</title>\n<style>/*<![CDATA[*/\n/* The font is a part of TeX Gyre Pagella Math 1.632 by "
+                 "the GUST e-foundry (GUST Font License), renamed. */\n@font-face{font-family:'nhsym "
+                 "math';src:url(data:font/woff2;base64,%s) format('woff2')}\n%s/*]]>*/</style>\n</head>\n<body>\n",
+                 nh_page_font, nh_page_style);
+    nh_html_add(w, "<a class=\"skip\" href=\"#text\">Skip to the text</a>\n<div class=\"wrap\">\n<header "
+                   "class=\"top\"><div class=\"say\">\n<h1>");
     nh_html_text(w, w->system->title);
     if (what) nh_text_addf(w->out, ": %s", what);
+    put_values(w);
     nh_html_add(w, "</h1>\n");
 }
 
-void nh_html_links(nh_html_writer *w, const char *sections)
+void nh_html_head_end(nh_html_writer *w)
 {
     const nh_system *s = w->system;
+    if (w->headed) return;
+    w->headed = true;
     if (s->source && s->source[0]) {
         nh_html_add(w, "<p class=\"source\">System: ");
         nh_html_text(w, s->source);
         nh_html_add(w, "</p>\n");
     }
-    nh_html_add(w, "<nav aria-label=\"Sections\">");
+    nh_html_add(w, "</div><div class=\"tools\"><button class=\"tool\" id=\"theme\" type=\"button\" "
+                   "aria-label=\"light or dark colours\">\u25d0</button><button class=\"tool\" id=\"print\" "
+                   "type=\"button\">Print</button></div></header>\n<main>\n");
+}
+
+void nh_html_links(nh_html_writer *w, const char *sections)
+{
+    nh_html_head_end(w);
+    nh_html_add(w, "<div class=\"paper\" id=\"text\"><nav class=\"toc\" aria-label=\"Sections\"><ol>");
     while (*sections) {
         size_t id = strcspn(sections, "|"), name = strcspn(sections + id + 1, "|");
-        nh_text_addf(w->out, "<a href=\"#%.*s\">%.*s</a> ", (int)id, sections, (int)name, sections + id + 1);
+        nh_text_addf(w->out, "<li><a href=\"#%.*s\">%.*s</a></li>", (int)id, sections, (int)name, sections + id + 1);
         sections += id + 1 + name;
         sections += *sections == '|';
     }
-    nh_html_add(w, "</nav>\n</header>\n");
+    nh_html_add(w, "</ol></nav>\n<article>\n");
 }
 
 void nh_html_end(nh_html_writer *w)
 {
-    nh_html_add(w, "</main>\n<script>//<![CDATA[\n");
-    if (w->space) nh_html_add(w, nh_html_space);
-    nh_html_add(w, nh_html_script);
+    nh_html_add(w, "</article></div>\n</main></div>\n<script>//<![CDATA[\n");
+    if (w->stage) nh_html_add(w, nh_page_solver), nh_html_add(w, nh_page_scene);
+    nh_html_add(w, nh_page_script);
     nh_html_add(w, "//]]></script>\n</body>\n</html>\n");
 }
 

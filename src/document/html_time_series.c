@@ -6,7 +6,7 @@
 #include "document/html_internal.h"
 #include "document/perspective.h"
 
-enum { most_curves = 7, most_frames = 401 };
+enum { most_curves = 7, page_points = 80 };
 
 /* ---- plots over time ---- */
 
@@ -26,13 +26,21 @@ static void flush(nh_html_writer *w, const nh_time_series *c, const char *what, 
                     .timed = c->count > 1,
                     .curves = n,
                     .curve = curve};
-    nh_html_figure(w, &plot, caption);
+    if (w->stage) nh_html_live_figure(w, &plot, what, axis);
+    else nh_html_figure(w, &plot, caption);
 }
 
-static nh_curve curve_of(const nh_time_series *c, const nh_line *line)
+/* A page with scripts draws its own curves: those of the file are for other readers, with fewer points. */
+static size_t every_of(const nh_html_writer *w, const nh_time_series *c)
 {
-    return (nh_curve){
-        .name = line->name, .count = c->count, .x = c->time, .x_stride = 1, .y = line->value, .y_stride = line->stride};
+    return w->stage ? 1 + c->count / page_points : 1;
+}
+
+static nh_curve curve_of(const nh_html_writer *w, const nh_time_series *c, const nh_line *line)
+{
+    size_t every = every_of(w, c);
+    return (nh_curve){.name = line->name, .count = (c->count - 1) / every + 1, .x = c->time, .x_stride = every,
+                      .y = line->value, .y_stride = line->stride * every};
 }
 
 /* Lines of one kind, in plots of at most so many curves.  Without the first `skip` lines of the kind, `take` are
@@ -45,7 +53,7 @@ static void lines(nh_html_writer *w, const nh_time_series *c, nh_track_kind kind
     size_t n = 0, seen = 0;
     for (size_t j = 0; j < c->lines; j++) {
         if (c->line[j].kind != kind || seen++ < skip || seen > skip + take) continue;
-        curve[n] = curve_of(c, &c->line[j]);
+        curve[n] = curve_of(w, c, &c->line[j]);
         snprintf(letter[n], sizeof *letter, c->model->k == 1 ? "mu" : "mu_%zu", seen);
         if (kind == NH_TRACK_MULTIPLIER) curve[n].name = letter[n]; /* names as in the formulas */
         if (++n < most_curves) continue;
@@ -85,7 +93,7 @@ static void positions(nh_html_writer *w, const nh_time_series *c)
         size_t n = 0;
         for (size_t i = 0; i < s->coordinates; i++) {
             if (s->coordinate[i].type != kind[k].type) continue;
-            curve[n++] = curve_of(c, &c->line[i]);
+            curve[n++] = curve_of(w, c, &c->line[i]);
             if (n < most_curves) continue;
             flush(w, c, "Coordinates", axis, kind[k].caption, n, curve);
             n = 0;
@@ -156,12 +164,13 @@ static void path_plot(nh_html_writer *w, const nh_time_series *c)
         if (c->shape[i].kind == NH_SHAPE_SEGMENT || nh_shape_in_space(c->shape[i].kind)) continue;
         const nh_line *x = nh_time_series_shape(c, i, 0), *y = nh_time_series_shape(c, i, 1);
         shape_name(c, i, name[n], sizeof name[n]);
+        size_t every = every_of(w, c);
         curve[n] = (nh_curve){.name = name[n],
-                              .count = c->count,
+                              .count = (c->count - 1) / every + 1,
                               .x = x->value,
-                              .x_stride = x->stride,
+                              .x_stride = x->stride * every,
                               .y = y->value,
-                              .y_stride = y->stride};
+                              .y_stride = y->stride * every};
         bool heads = c->shape[i].kind == NH_SHAPE_ARROW || c->shape[i].kind == NH_SHAPE_WHEEL;
         if (heads) curve[n].heading = nh_time_series_shape(c, i, 2)->value;
         n++;
@@ -188,121 +197,29 @@ static void path_plot(nh_html_writer *w, const nh_time_series *c)
                          : "Path of the motion.");
 }
 
-static void number(nh_html_writer *w, double value, int digits)
-{
-    if (isfinite(value)) nh_text_addf(w->out, "%.*g", digits, value);
-    else nh_html_add(w, "null");
-}
-
-/* `once`: constants are written once. */
-static void frames(nh_html_writer *w, const char *before, size_t count, const nh_line *line, size_t step, bool once)
-{
-    enum { digits = 6, in_space = 5 };
-    bool same = once;
-    for (size_t i = 0; i < count && same; i++) same = line->value[i * line->stride] == line->value[0];
-    nh_text_addf(w->out, "%s[", before);
-    for (size_t i = 0; i < count; i += same ? count : step) {
-        if (i) nh_html_add(w, ",");
-        number(w, line->value[i * line->stride], once ? in_space : digits);
-    }
-    nh_html_add(w, "]");
-}
-
-static void three(nh_html_writer *w, const char *key, const double v[3])
-{
-    nh_text_addf(w->out, "\"%s\":[%.9g,%.9g,%.9g],", key, v[0], v[1], v[2]);
-}
-
-static void eye(nh_html_writer *w, const nh_view *v, size_t step)
-{
-    nh_text_addf(w->out, ",\"view\":{\"wide\":%g,\"high\":%g,\"up\":%d,\"sides\":%d,\"arcs\":%d,", v->wide, v->high,
-                 v->up, NH_VIEW_SIDES, NH_VIEW_ARCS);
-    three(w, "towards", v->towards);
-    three(w, "right", v->right);
-    three(w, "top", v->top);
-    three(w, "light", v->light);
-    const struct {
-        const char *key;
-        double value;
-    } all[] = {{"ambient", v->ambient}, {"direct", v->direct}, {"white", v->white},       {"solid", v->solid},
-               {"faint", v->faint},     {"behind", v->behind}, {"distance", v->distance}, {"scale", v->scale},
-               {"x", v->x},             {"y", v->y},           {"floor", v->floor},       {"pitch", v->pitch},
-               {"dot", v->dot}};
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        nh_text_addf(w->out, "\"%s\":%.9g,", all[k].key, all[k].value);
-    for (size_t j = 0; j < 3; j++) {
-        const nh_line middle = {.value = v->middle + j, .stride = 3};
-        frames(w, j ? "," : "\"middle\":[", v->count, &middle, step, true);
-    }
-    nh_html_add(w, "]}");
-}
-
-/* The numbers for the script; they contain no text of the user. */
-static void data(nh_html_writer *w, const nh_time_series *c, const nh_view *view)
-{
-    size_t step = (c->count + most_frames - 2) / most_frames, shown = 0;
-    const nh_line time = {.value = c->time, .stride = 1};
-    if (step == 0) step = 1;
-    nh_html_add(w, "<script type=\"application/json\" id=\"motion-data\">{");
-    frames(w, "\"t\":", c->count, &time, step, false);
-    if (view) eye(w, view, step);
-    nh_html_add(w, ",\"shapes\":[");
-    for (size_t i = 0; i < c->shapes; i++) {
-        if (w->space && c->shape[i].flat) continue;
-        nh_text_addf(w->out, "%s{\"kind\":\"%s\",\"v\":[", shown++ ? "," : "", nh_shape_name(c->shape[i].kind));
-        for (size_t j = 0; j < nh_shape_numbers(c->shape[i].kind); j++)
-            frames(w, j ? "," : "", c->count, nh_time_series_shape(c, i, j), step, w->space);
-        nh_html_add(w, "]}");
-    }
-    nh_html_add(w, "]}</script>\n");
-}
-
-static void player(nh_html_writer *w, const nh_time_series *c, const nh_view *view)
-{
-    w->space = view != NULL;
-    nh_html_add(w, "<div id=\"player\" hidden=\"hidden\">\n");
-    if (c->shapes) {
-        nh_html_add(w, "<figure><svg id=\"scene\" class=\"plot\" role=\"img\" aria-label=\"The system in motion; the "
-                       "slider below chooses the time\" viewBox=\"0 0 640 420\" width=\"640\" height=\"420\"></svg>"
-                       "<figcaption>The system in motion, with its path. Drawn: ");
-        nh_html_text(w, w->space ? "bodies in space, in perspective" : c->drawing);
-        nh_html_add(w, ".</figcaption></figure>\n");
-    }
-    nh_html_add(w,
-                "<div class=\"controls\"><button type=\"button\" id=\"play\" aria-label=\"play or pause\">Play</button>"
-                "<input type=\"range\" id=\"when\" min=\"0\" max=\"1000\" value=\"0\" step=\"1\" aria-label=\"time\"/> "
-                "<output id=\"clock\" for=\"when\">t = 0</output>\n"
-                "<label>speed <select id=\"speed\"><option>0.25</option><option>0.5</option><option "
-                "selected=\"selected\">1</option>"
-                "<option>2</option><option>4</option></select></label> "
-                "<label><input type=\"checkbox\" id=\"loop\"/> loop</label> ");
-    if (c->shapes) nh_html_add(w, "<button type=\"button\" id=\"full\">Full screen</button>");
-    nh_html_add(w, "</div></div>\n");
-    data(w, c, view);
-}
-
 /* A still picture for paper, for files, and where no script runs. */
-static void still(nh_html_writer *w, const nh_time_series *c, const nh_view *view)
+static void still(nh_html_writer *w, const nh_time_series *c)
 {
+    enum { wide = 640, high = 420 };
+    nh_view *view = nh_view_create(c, c->count, wide, high);
     nh_plot plot = {.title = "Bodies in space",
                     .description = "The bodies at the end of the motion in perspective, with their paths",
                     .view = view,
                     .at = c->count - 1};
-    if (!view) return;
-    nh_html_add(w, "<div class=\"still\">");
-    nh_html_figure(w, &plot, "The bodies at the end of the motion, with their paths; hidden sides are faint.");
-    nh_html_add(w, "</div>\n");
+    if (view)
+        nh_html_figure(w, &plot, "The bodies at the end of the motion, with their paths; hidden sides are faint.");
+    nh_view_free(view);
 }
 
-void nh_html_time_series(nh_html_writer *w, const nh_time_series *c)
+void nh_html_still(nh_html_writer *w, const nh_time_series *c)
 {
-    enum { wide = 640, high = 420 };
-    bool states = c->lines && c->line[0].kind == NH_TRACK_STATE;
-    nh_view *view = nh_view_create(c, c->count, wide, high);
-    player(w, c, view);
-    still(w, c, view);
-    nh_view_free(view);
+    still(w, c);
     path_plot(w, c);
+}
+
+void nh_html_plots(nh_html_writer *w, const nh_time_series *c)
+{
+    bool states = c->lines && c->line[0].kind == NH_TRACK_STATE;
     if (states) positions(w, c);
     if (states) velocities(w, c);
     lines(w, c, NH_TRACK_ENERGY, 0, c->lines, "Energy", "E", "The energy function over time.");

@@ -37,7 +37,7 @@ static void links(void *to, const char *sections) { nh_html_links(to, sections);
 static void open(void *to, nh_pen_part part, const char *id, const char *title)
 {
     if (part == NH_PEN_CARD || part == NH_PEN_SECTION) ((nh_html_writer *)to)->names = 0;
-    nh_html_add(to, markup[part].open);
+    nh_html_add(to, part == NH_PEN_NAME && id ? "<h3 id=\"" : markup[part].open);
     if (id) nh_html_text(to, id);
     /* shown when the pointer rests on it */
     if (part == NH_PEN_KIND && title && *title) nh_html_add(to, "\" title=\""), nh_html_text(to, title);
@@ -100,7 +100,9 @@ static void table_end(void *to) { nh_html_table_end(to); }
 
 static void plot(void *to, nh_plot *figure, const char *caption) { nh_html_figure(to, figure, caption); }
 
-static void series(void *to, const nh_time_series *motion) { nh_html_time_series(to, motion); }
+static void series(void *to, const nh_time_series *motion) { (void)to, (void)motion; }
+
+static void stage(void *to, const nh_stage *motion) { nh_html_stage(to, motion); }
 
 static void symmetry(void *to, const nh_symmetry *z)
 {
@@ -121,4 +123,4 @@ static void end(void *to, const nh_run *run)
 
 const nh_pen_ink nh_pen_html = {true,  false,     begin,  links,   open,     close,    words,    number,
                                 count, names,     source, letters, equation, code,     formulas, sheet,
-                                table, table_end, plot,   series,  symmetry, glossary, end};
+                                table, table_end, plot,   series,  stage,    symmetry, glossary, end};

@@ -297,4 +297,4 @@ static void end(void *to, const nh_run *run)
 
 const nh_pen_ink nh_pen_plain = {false, true,      begin, links,   open,     close,    words,    number,
                                  count, words,     words, letters, equation, code,     formulas, sheet,
-                                 table, table_end, plot,  series,  symmetry, glossary, end};
+                                 table, table_end, plot,  series,  NULL,     symmetry, glossary, end};

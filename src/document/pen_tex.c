@@ -181,7 +181,8 @@ static void series(void *to, const nh_time_series *motion)
                            .shown = w->shown,
                            .sink = draw,
                            .context = w};
-    nh_html_time_series(&page, motion);
+    nh_html_still(&page, motion);
+    nh_html_plots(&page, motion);
     nh_text_clear(&rest);
 }
 
@@ -202,4 +203,4 @@ static void end(void *to, const nh_run *run)
 
 const nh_pen_ink nh_pen_tex = {false, false,     begin,  links,   open,     close,    words,    number,
                                count, names,     source, letters, equation, code,     formulas, sheet,
-                               table, table_end, plot,   series,  symmetry, glossary, end};
+                               table, table_end, plot,   series,  NULL,     symmetry, glossary, end};

@@ -10,6 +10,7 @@ typedef struct {
     const char *command, *system_path, *analysis_path; /* NULL: not known, or none */
     double seed, shown;                                /* the option `shown`: the longest formula of a page */
     double seconds;                                    /* NAN where the report gives it elsewhere, or not at all */
+    const char *system_words;                          /* the system as a command line names it; NULL: by its path */
 } nh_run;
 
 /* Adds `title`, `parameters` (unless they exist) and `run`. */

@@ -141,8 +141,9 @@ static void check(const nh_reduction *r, nh_text *out)
     if (printed >= 0)
         nh_text_addf(&words, "The equations as printed agree with the true accelerations to %.2g. ", printed);
     if (apart >= 0)
-        nh_text_addf(&words, "Put together again, the reduced motions differ from the full one by %.2g", apart);
-    if (apart >= 0) nh_text_addf(&words, " up to t = %.4g. ", reached);
+        nh_text_addf(&words,
+                     "Put together again, the reduced motions differ from the full one by %.2g up to t = %.4g. ",
+                     apart, reached);
     if (energy >= 0) nh_text_addf(&words, "The energy changes by %.2g.", energy);
     if (words.length) nh_text_add(out, "\n");
     nh_screen_say(out, 0, &words);

@@ -32,7 +32,8 @@ typedef struct {
     bool plain;                /* the expression language itself: velocities keep their prime */
 } nh_source_language;
 
-extern const nh_source_language nh_source_c, nh_source_python, nh_source_sympy, nh_source_matlab, nh_source_plain;
+extern const nh_source_language nh_source_c, nh_source_python, nh_source_sympy, nh_source_matlab, nh_source_js,
+    nh_source_plain;
 
 typedef struct nh_source nh_source;
 

@@ -207,6 +207,28 @@ const nh_source_language nh_source_matlab = {
     .declare = "",
     .end = ";"};
 
+/* Elliptic integrals and Riemann's equation are functions of page/special.js. */
+#define JS(f) "nhsymSpecial." f
+#define JAVASCRIPT \
+    {[NH_ELLIPTIC_K] = JS("ellipticF(Math.PI/2, $1)"), [NH_ELLIPTIC_E] = JS("ellipticE(Math.PI/2, $1)"), \
+     [NH_ELLIPTIC_F] = JS("ellipticF($1, $2)"), [NH_ELLIPTIC_EINC] = JS("ellipticE($1, $2)"), \
+     [NH_ELLIPTIC_PI] = JS("ellipticPi($1, $2, $3)"), SERIES(JS("series"))}
+
+const nh_source_language nh_source_js = {
+    .name = "JavaScript",
+    .reserved = " arguments async await break case catch class const continue debugger default delete do else enum eval "
+                "export extends false finally for function if implements import in instanceof interface let new null of "
+                "package private protected public return static super switch this throw true try typeof undefined var "
+                "void while with yield Math NaN Infinity Number Array Object window document nhsymLinear nhsymSpecial ",
+    .call = {FUNCTIONS("Math.", "a", "atan2", "a"), [NH_ABS] = "Math.abs", [NH_SIGN] = "Math.sign"},
+    .named = JAVASCRIPT,
+    .root = "Math.sqrt",
+    .pi = "Math.PI",
+    .power = {"Math.pow(", ", ", ")"},
+    .declare = "const ",
+    .end = ";",
+    .products = true};
+
 const nh_source_language nh_source_plain = {
     .name = "plain",
     .reserved = " t pi sqrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log abs sign atan2 ",

@@ -90,8 +90,7 @@ static void curve(const nh_svg_canvas *c, const nh_curve *f, size_t k)
     if (cubic) smooth(c, f);
     for (size_t i = 0; i < f->count && !cubic; i++)
         if (!visible(c, f, i, &x, &y)) nh_polyline_end(&p);
-        else if (thin) nh_polyline_to(&p, x, y);
-        else nh_polyline_write(&p, x, y);
+        else nh_polyline_to(&p, x, y);
     nh_polyline_end(&p);
     nh_text_add(c->out, "\"/>");
     if (f->heading) headings(c, f, k);

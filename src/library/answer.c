@@ -22,7 +22,8 @@ static nh_answer begun(const nh_answer_kind *kind, const nh_request *q)
 {
     return (nh_answer){.kind = kind,
                        .request = q,
-                       .run = {q->line, q->system_path, q->analysis_path, q->options.seed, q->options.shown, NAN}};
+                       .run = {q->line, q->system_path, q->analysis_path, q->options.seed, q->options.shown, NAN,
+                               q->system_words}};
 }
 
 bool nh_answer_create(nh_answer *a, const nh_request *q, nh_error *error)

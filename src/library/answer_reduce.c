@@ -15,7 +15,12 @@ static bool reduce_check(const nh_request *q, nh_error *error)
 {
     static const char *const only = csv;
     nh_export_target target;
-    if (!q->to || !strcmp(q->to, csv) || nh_export_target_of(q->to, &target, error)) return true;
+    if (!q->to || !strcmp(q->to, csv)) return true;
+    if (nh_export_target_of(q->to, &target, error)) {
+        if (target != NH_EXPORT_JS) return true;
+        nh_fail(error, NH_USAGE, "--to", "reduced equations are not written in JavaScript");
+        return nh_error_hint(error, "`nhsym export SYSTEM --to js` writes the whole motion");
+    }
     bool near = nh_text_nearest(q->to, &only, 1) != NULL;
     if (near || !strstr(error->hint, "did you mean")) error->hint[0] = 0;
     return near ? nh_error_hint(error, "did you mean `csv`?")

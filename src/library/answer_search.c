@@ -15,6 +15,7 @@ static bool analyze(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
     nh_analyze_request request = {.command = q->line, .system_path = q->system_path,
+                                  .system_words = q->system_words,
                                   .analysis_path = q->analysis_path, .settings = q->settings, .setting = q->setting,
                                   .chart = q->velocities, .options = q->options, .accuracy = q->accuracy,
                                   .equations = q->equations, .no_figures = !q->documents, .seed_given = q->seed_given,

@@ -150,8 +150,18 @@ static const char *completed(nh_request *q, const char *path)
     return name;
 }
 
+static const char *system_words(const nh_request *q, const char *word)
+{
+    const char *text = nh_arena_strdup(q->arena, word);
+    for (size_t i = 0; i < q->wheels; i++) text = nh_arena_printf(q->arena, "%s --wheel \"%s\"", text, q->wheel[i]);
+    if (q->base) text = nh_arena_printf(q->arena, "%s --base \"%s\"", text, q->base);
+    for (size_t i = 0; i < q->ons; i++) text = nh_arena_printf(q->arena, "%s --on \"%s\"", text, q->on[i]);
+    return text;
+}
+
 bool nh_request_system(nh_request *q, const char *word, nh_error *error)
 {
+    q->system_words = system_words(q, word);
     q->system_path = nh_places_find(q->arena, "systems", word, error);
     if (q->system_path && (q->wheels || q->base || q->ons)) q->system_path = completed(q, q->system_path);
     return q->system_path != NULL;

@@ -21,6 +21,7 @@ typedef struct {
     nh_arena *arena;             /* of its strings */
     const char *command, *line;  /* "analyze"; all that was typed, for reports */
     const char *system_path, *analysis_path;
+    const char *system_words;    /* the system as it was typed, with its --wheel, --base, --on, for a command line */
     size_t settings;
     nh_setting *setting;
     nh_chart_choice velocities;

@@ -182,6 +182,7 @@ struct nh_analysis {
     nh_arena *arena;
     /* the command that repeats the analysis; command and analysis_path may be NULL */
     const char *command, *system_path, *analysis_path;
+    const char *system_words;   /* how a command line names the system; NULL: by its path */
     nh_system *system;
     nh_analysis_file *analysis;    /* NULL: chosen by the program */
     struct nh_theory *theory;  /* where it was requested; else NULL */
