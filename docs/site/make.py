@@ -7,7 +7,6 @@ The order of the pages is that of the list at the end of README.md.  Pandoc turn
 navigation, the index of the search (search.js), the pages of the two interfaces (interfaces.py) and the gallery.
 The build fails on a link inside the site that leads nowhere.
 """
-import base64
 import html
 import json
 import os
@@ -184,9 +183,7 @@ class Site:
             self.page(source, bodies[source])
         for name in ("style.css", "search.js"):
             shutil.copyfile(os.path.join(HERE, name), os.path.join(self.out, name))
-        font = "".join(re.findall(r'^ +"([\w+/=]*)"', read("src/document/html_font.c"), re.M))
-        with open(os.path.join(self.out, "math.woff2"), "wb") as file:
-            file.write(base64.b64decode(font))
+        shutil.copyfile("src/document/page/font.woff2", os.path.join(self.out, "math.woff2"))
         pages = [[page_name(source), title] for source, title in self.order]
         write(os.path.join(self.out, "index.js"), "nhsymIndex(%s)\n" % json.dumps([pages, self.index], ensure_ascii=False, separators=(",", ":")))
 

@@ -228,7 +228,7 @@ void nh_pen_heading(nh_pen *p, const char *title)
 
 void nh_pen_name_heading(nh_pen *p, const char *name)
 {
-    nh_pen_open(p, NH_PEN_NAME, NULL, NULL);
+    nh_pen_open(p, NH_PEN_NAME, name, NULL);
     p->ink->source(p->to, name);
     nh_pen_close(p, NH_PEN_NAME);
 }
