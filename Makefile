@@ -154,7 +154,7 @@ pictures: test-packages
 
 classification: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) benches
-	$(call page,$(BUILD)/tests/bench_classify); tail -n 1 docs/$@.md; exit $$code
+	$(call page,$(BUILD)/tests/bench_classify); sed '/^|/s/\*/\\*/g' docs/$@.md >$(BUILD)/$@.md && mv $(BUILD)/$@.md docs/; tail -n 1 docs/$@.md; exit $$code
 
 papers: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all benches

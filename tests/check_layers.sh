@@ -103,6 +103,10 @@ for page in README.md docs/*.md; do
     done
 done >>"$offences"
 
+# ---- the pages name files that are there ----
+grep -noE '`(src|tests|docs|systems|analyses)/[A-Za-z0-9_/.-]+\.[a-z0-9]+`' README.md docs/*.md | tr -d '`' | grep -v '/[A-Z]*[._]' |
+    while IFS=: read -r page line file; do [ -e "$file" ] || echo "$page:$line: $file is not there"; done >>"$offences"
+
 # ---- a page per function, 500 lines per file ----
 awk -v most_lines=60 -v most_file=500 '
     FNR == 1 { if (last > most_file) print previous ": " last " lines"; start = 0 }

@@ -7,7 +7,6 @@ The order of the pages is that of the list at the end of README.md.  Pandoc turn
 navigation, the index of the search (search.js), the pages of the two interfaces (interfaces.py) and the gallery.
 The build fails on a link inside the site that leads nowhere.
 """
-import base64
 import html
 import json
 import os
@@ -136,15 +135,22 @@ class Site:
         shutil.copyfile(path, write_to)
         return path
 
+    def named(self, m):
+        """A link whose text is the name of a file gets the page's title, with a capital where a sentence begins."""
+        title = self.titles["docs/%s.md" % m[3]]
+        begins = (m[1] or "").rstrip(" ") in (".", ":", "<p>", "<li>", "<td>")
+        return (m[1] or "") + m[2] + (title[:1].upper() + title[1:] if begins else title) + "</a>"
+
     def finish(self, source, body):
         """Links, keys of the literature, boxes that scroll, and a link at each heading."""
-        body = re.sub(r'(<a href="(?:docs/)?([a-z_]+)[.]md">)(?:docs/)?\2[.]md</a>', lambda m: m[1] + self.titles["docs/%s.md" % m[2]] + "</a>", body)
+        body = re.sub(r'(^|[^>\w] |<p>|<li>|<td>)?(<a href="(?:docs/)?([a-z_]+)[.]md">)(?:docs/)?\3[.]md</a>', self.named, body)
         body = re.sub(r'\b(href|src)="([^"]*)"', lambda m: '%s="%s"' % (m[1], html.escape(self.link(source, m[2]))), body)
         if source == "docs/references.md":
             body = re.sub(r"<strong>\[(\w+)\]</strong>", r'<strong id="\1">[\1]</strong>', body)
         else:
             body = re.sub(r"(?<!\w)\[([A-Z][A-Za-z]+\d{4})(?=[],])", r'[<a href="references.html#\1">\1</a>', body)
-        body = body.replace("<table", '<div class="wide"><table').replace("</table>", "</table></div>")
+        body = re.sub(r"<table.*?</table>", lambda m: '<div class="wide">%s</div>' % m[0].replace(
+            "<table", '<table class="columns%d"' % min(8, m[0].split("</tr>")[0].count("<th")), 1), body, flags=re.S)
         return re.sub(r'<(h[23]) id="([^"]*)">(.*?)</\1>', r'<\1 id="\2">\3<a class="here" href="#\2" aria-label="link to this section"></a></\1>', body, flags=re.S)
 
     def add_to_index(self, source, body):
@@ -167,7 +173,7 @@ class Site:
 
     def neighbours(self, source):
         at = [page for page, _ in self.order].index(source)
-        link = lambda i, kind, sign: '<a class="%s" href="%s">%s</a>' % (kind, page_name(self.order[i][0]), sign % html.escape(self.order[i][1]))
+        link = lambda i, kind, sign: '<a class="%s" href="%s">%s</a>' % (kind, page_name(self.order[i][0]), sign % html.escape(self.order[i][1][:1].upper() + self.order[i][1][1:]))
         return (link(at - 1, "prev", "← %s") if at else "") + (link(at + 1, "next", "%s →") if at + 1 < len(self.order) else "")
 
     def page(self, source, body):
@@ -181,12 +187,13 @@ class Site:
     def make(self):
         bodies = converted({source: self.texts[source]() if source in self.texts else read(source) for source, _ in self.order})
         for source, _ in self.order:
+            torn = re.search(r"[^<>]*[\w)]<em>[^<]*|<em>[^<]*</em>[\w(][^<]*", bodies[source])
+            if torn:
+                sys.exit("%s: a formula whose * became emphasis; put it between backticks: %s" % (source, torn[0]))
             self.page(source, bodies[source])
         for name in ("style.css", "search.js"):
             shutil.copyfile(os.path.join(HERE, name), os.path.join(self.out, name))
-        font = "".join(re.findall(r'^ +"([\w+/=]*)"', read("src/document/html_font.c"), re.M))
-        with open(os.path.join(self.out, "math.woff2"), "wb") as file:
-            file.write(base64.b64decode(font))
+        shutil.copyfile("src/document/page/font.woff2", os.path.join(self.out, "math.woff2"))
         pages = [[page_name(source), title] for source, title in self.order]
         write(os.path.join(self.out, "index.js"), "nhsymIndex(%s)\n" % json.dumps([pages, self.index], ensure_ascii=False, separators=(",", ":")))
 
