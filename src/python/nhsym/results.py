@@ -166,7 +166,7 @@ class Result(Record):
     --------
     >>> result = nhsym.system("sleigh").verify("m*v")
     >>> print(result)
-    Chaplygin sleigh   with m = 2, a = 1, k = 2
+    Chaplygin sleigh   m = 2, a = 1, k = 2
     No: this is not conserved.
     <BLANKLINE>
     The question
