@@ -5,7 +5,7 @@
 
 #include "program.h"
 #include "sweep.h"
-#include "document/html_internal.h"
+#include "document/page.h"
 
 static place place_with_page(const char *line)
 {
@@ -65,135 +65,227 @@ static char *project_file(const char *path)
     return text;
 }
 
-/* The value of an attribute of the first element that begins with `element`. */
-static double attribute(const char *text, const char *element, const char *name)
-{
-    const char *at = strstr(text, element), *end = at ? strchr(at, '>') : NULL, *value = at ? strstr(at, name) : NULL;
-    cr_assert(value && value < end, "%s has no %s", element, name);
-    return strtod(value + strlen(name), NULL);
-}
-
 /* This one needs no browser: what stands in the page as CDATA may hold no end of it, nor of the element for readers of HTML. */
 Test(browser, script_and_style_may_stand_in_a_page)
 {
-    const char *const parts[] = {nh_html_script, nh_html_space, nh_html_style};
+    const char *const parts[] = {nh_page_script, nh_page_scene, nh_page_solver, nh_page_special, nh_page_style};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         cr_expect_gt(strlen(parts[i]), 1000u);
-        cr_expect_null(strpbrk(parts[i], "<&"));
+        cr_expect_null(strstr(parts[i], "</"));
         cr_expect_null(strstr(parts[i], "]]>"));
     }
 }
 
-/* The slider at its end: the clock, the cursors of all plots and the drawing are there, too. */
+/* Readers without scripts, and paper, have the picture and the plots as they are in the file. */
+Test(browser, a_page_without_scripts_has_its_pictures)
+{
+    place p = place_with_page("analyze kepler --quiet --html page.html");
+    char *text = read_here(&p, "page.html"), *still = strstr(text, "<div class=\"still\"><figure><svg "), *plots = strstr(text, "<div class=\"plots\">");
+    size_t n = 0;
+    for (const char *c = plots; c && (c = strstr(c, "<figure class=\"plot\"")); c++) n += strstr(c, "<svg ") < strstr(c, "</figure>");
+    cr_expect(still && plots && n >= 3, "%zu plots", n);
+    free(text);
+    place_clear(&p);
+}
+
+/* The page of a reduction, and of a question, shows the motion with the same formulas as that of `simulate`. */
+Test(browser, the_motion_of_other_pages)
+{
+    static const char *const lines[] = {"simulate crane --quiet --html page.html", "reduce crane --quiet --html page.html", "verify crane --current theta --quiet --html page.html"};
+    char *row[3] = {NULL};
+    for (size_t i = 0; i < 3; i++) {
+        place p = place_with_systems();
+        finished_clear((finished[]){run(&p, lines[i])});
+        char *text = read_here(&p, "page.html"), *at = strstr(text, "<tr data-quantity=\"0\""), *end = at ? strstr(at, "</tr>") : NULL;
+        cr_assert(end, "%s has no table of quantities", lines[i]);
+        row[i] = strndup(at, (size_t)(end - at));
+        cr_expect_str_eq(row[i], row[0], "%s", lines[i]);
+        free(text);
+        place_clear(&p);
+    }
+    for (size_t i = 0; i < 3; i++) free(row[i]);
+}
+
+/* ---- the page at work: what a script leaves in it as JSON ---- */
+
+static const cJSON *of(const cJSON *object, const char *key) { return cJSON_GetObjectItem(object, key); }
+
+/* What a script left in the document as JSON, or NULL without a browser. */
+static cJSON *seen_in(const place *p, const char *page, const char *flags)
+{
+    char *document = document_in(p, page, flags), *seen = document ? strstr(document, "<pre id=\"seen\">") : NULL;
+    cr_assert(!document || seen, "the page was not looked at");
+    cJSON *json = NULL;
+    if (seen) {
+        char *text = seen + 15, *to = text;
+        *strstr(text, "</pre>") = 0;
+        for (const char *from = text; *from; to++) { /* entities that the browser writes within text */
+            static const char *const entity[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}};
+            size_t taken = 0;
+            for (size_t i = 0; i < 3 && !taken; i++)
+                if (!strncmp(from, entity[i][0], strlen(entity[i][0]))) *to = *entity[i][1], taken = strlen(entity[i][0]);
+            if (!taken) *to = *from, taken = 1;
+            from += taken;
+        }
+        *to = 0;
+        json = cJSON_Parse(text);
+        cr_assert(json, "%.300s", text);
+    }
+    free(document);
+    return json;
+}
+
+/* The page after a script, which calls leave(value). */
+static cJSON *page_after(const place *p, const char *script)
+{
+    static const char *const LEAVE = "function leave(value){var e=document.createElement('pre');e.id='seen';e.textContent=JSON.stringify(value);document.body.appendChild(e);}"
+                                     "function slide(e,v){e.value=v;e.dispatchEvent(new Event('input'));}var $=function(s){return document.querySelector(s);};";
+    write_with(p, "page.html", "after.html", 2, (const char *const[]){LEAVE, script});
+    return seen_in(p, "after.html", ahead);
+}
+
+/* The slider of the time at its end: the clock, the cursors of all plots and the picture are there, too. */
 Test(browser, slider_plots_and_drawing_move_together, PLAIN_ONLY)
 {
     place p = place_with_page("analyze sleigh --quiet --html page.html");
-    write_with(&p, "page.html", "moved.html", 1, (const char *const[]){"var b=document.getElementById('when');b.value=b.max;b.dispatchEvent(new Event('input'));"});
-    char *start = document_of(&p, "page.html"), *last = start ? document_of(&p, "moved.html") : NULL;
-    if (start) {
-        cr_expect_not_null(strstr(start, ">t = 0.000</output>"), "the clock at the start");
-        cr_expect_not_null(strstr(last, ">t = 10.00</output>"), "and at the end");
-        cr_expect_null(strstr(start, "id=\"player\" hidden"), "the player is shown when scripts run");
-        size_t cursors = 0;
-        for (const char *c = last; (c = strstr(c, "data-x1=\"")); c++, cursors++) {
-            double x1 = strtod(c + 9, NULL), now = attribute(c, "<line class=\"now\"", "x1=\"");
-            cr_expect_float_eq(now, x1, 0.06, "cursor %zu at %g of %g", cursors, now, x1);
-        }
-        cr_expect_gt(cursors, 6u);
-        /* The blade's drawing: from behind to before (x, y), and far from where it began. */
-        const char *scene = strstr(start, "id=\"scene\""), *later = strstr(last, "id=\"scene\"");
-        double x = attribute(scene, "<line", "x1=\""), to = attribute(later, "<line", "x1=\"");
-        cr_expect_gt(x - to, 300.0, "from %g to %g", x, to);
+    cJSON *seen = page_after(&p, "nhsymLive.play(false);var scene=function(){return $('.scene g:nth-of-type(4)').innerHTML;};slide($('#time'),0);var first=scene();slide($('#time'),1000);"
+                                 "leave({clock:$('#clock').textContent,cursors:[...document.querySelectorAll('svg.live')].map(function(s){var l=s.querySelector('line.now');return s.viewBox.baseVal.width-l.getAttribute('x1');}),"
+                                 "moved:first!==scene()});");
+    if (seen) {
+        cr_expect_str_eq(cJSON_GetStringValue(of(seen, "clock")), "t = 10.00");
+        cr_expect_geq(cJSON_GetArraySize(of(seen, "cursors")), 6);
+        for (const cJSON *c = of(seen, "cursors")->child; c; c = c->next) cr_expect_float_eq(c->valuedouble, 8, 0.01, "a cursor %g from the right edge", c->valuedouble);
+        cr_expect(cJSON_IsTrue(of(seen, "moved")));
     }
-    bool skipped = !start;
-    free(start), free(last);
+    bool skipped = !seen;
+    cJSON_Delete(seen);
     place_clear(&p);
     if (skipped) cr_skip_test("no chromium");
 }
 
-/* A tumbling box: at every time at most three of its faces are seen, the others are outlines without a fill; all of it stays in the picture, and moves. */
+/* Sliders of a parameter and of the state: the end of the motion that the page computes is that of the command which the page offers, and the table says
+ * which quantities need other values. */
+Test(browser, a_slider_recomputes_the_motion, PLAIN_ONLY)
+{
+    static const struct {
+        const char *system, *slide;
+        int gone; /* quantities that the new values do not conserve */
+    } pages[] = {
+        {"sleigh", "set('k',3);set('omega',1.5);", 2},
+        {"sleigh", "set('v',-1);", 0},
+        {"pendulum", "set('theta',2);set('l',0.5);", 0},
+        {"rolling_disk", "set('h',1.2);set(\"s'\",2);", 0},
+        {"car_with_trailer", "set('x',0.4);", 0},
+    };
+    bool skipped = false;
+    for (size_t i = 0; i < sizeof pages / sizeof *pages && !skipped; i++) {
+        if (!sweep_tries(i, 1, 2)) continue;
+        char line[100], script[900];
+        snprintf(line, sizeof line, "analyze %s --quiet --html page.html", pages[i].system);
+        place p = place_with_page(line);
+        snprintf(script, sizeof script,
+                 "nhsymLive.play(false);function set(name,v){slide(document.querySelector('.sl[data-name=\"'+name+'\"] input'),v);}%s"
+                 "setTimeout(function(){slide($('#time'),1000);var m=nhsymModel,l=nhsymLive.motion,s=[...l.state(l.end)];"
+                 "leave({command:$('#command').textContent,names:m.state,state:s,ms:+document.documentElement.dataset.milliseconds,gone:document.querySelectorAll('tr.off').length,told:$('#told').textContent});},500);",
+                 pages[i].slide);
+        cJSON *seen = page_after(&p, script);
+        skipped = !seen;
+        if (seen) {
+            const char *command = cJSON_GetStringValue(of(seen, "command"));
+            cr_expect_eq((int)cJSON_GetNumberValue(of(seen, "gone")), pages[i].gone, "%s %s", pages[i].system, pages[i].slide);
+            char shell[3 * PATH_MAX];
+            cr_assert_eq(strncmp(command, "nhsym simulate ", 15), 0, "%s", command);
+            snprintf(shell, sizeof shell, "NHSYM_PATH='%.2000s' '%.2000s' %.2000s --json end.json --quiet >/dev/null", p.project, p.program, command + 6);
+            finished f = run_vector(&p, &(manner){0}, (char *[]){"sh", "-c", shell, NULL});
+            cr_assert_eq(f.code, 0, "%s: %s", shell, f.err);
+            finished_clear(&f);
+            char *text = read_here(&p, "end.json");
+            cJSON *json = cJSON_Parse(text);
+            for (int k = 0; k < cJSON_GetArraySize(of(seen, "names")); k++) {
+                const char *name = cJSON_GetStringValue(cJSON_GetArrayItem(of(seen, "names"), k));
+                const cJSON *values = of(of(json, "states"), name);
+                cr_assert(values, "%s has no %s", text, name);
+                double there = cJSON_GetNumberValue(cJSON_GetArrayItem(values, cJSON_GetArraySize(values) - 1)), here = cJSON_GetNumberValue(cJSON_GetArrayItem(of(seen, "state"), k));
+                cr_expect_float_eq(here, there, 2e-6 * fmax(1, fabs(there)), "%s, %s: %s ends at %.12g, in the page at %.12g (%s)", pages[i].system, pages[i].slide, name, there, here,
+                                   cJSON_GetStringValue(of(seen, "told")));
+            }
+            fprintf(stderr, "measured: %s redrawn in %.1f ms\n", pages[i].system, cJSON_GetNumberValue(of(seen, "ms")));
+            cJSON_Delete(json);
+            free(text);
+        }
+        cJSON_Delete(seen);
+        place_clear(&p);
+    }
+    if (skipped) cr_skip_test("no chromium");
+}
+
+/* Hover shows values, a drag zooms, a name switches its curve off, a key turns the bodies; the address has what was changed. */
+Test(browser, plots_and_bodies_answer, PLAIN_ONLY)
+{
+    place p = place_with_page("analyze lagrange_top --quiet --html page.html");
+    cJSON *seen = page_after(&p, "nhsymLive.play(false);var s=$('svg.live'),b=s.getBoundingClientRect();s.setPointerCapture=function(){};"
+                                 "function at(type,x){s.dispatchEvent(new PointerEvent(type,{clientX:b.left+x,clientY:b.top+50,pointerId:1,bubbles:true}));}"
+                                 "at('pointermove',100);var hover=s.querySelector('line.hover').getAttribute('visibility');"
+                                 "at('pointerdown',100);at('pointermove',200);at('pointerup',200);var zoomed=!$('#unzoom').hidden;$('#unzoom').click();"
+                                 "var curves=function(){return $('svg.live g[clip-path]').children.length;},all=curves();$('button.lg').click();"
+                                 "var fewer=curves();slide($('.sl input'),1.5);setTimeout(function(){leave({hover:hover,zoomed:zoomed,unzoomed:$('#unzoom').hidden,all:all,fewer:fewer,hash:location.hash});},300);");
+    if (seen) {
+        cr_expect_str_eq(cJSON_GetStringValue(of(seen, "hover")), "visible");
+        cr_expect(cJSON_IsTrue(of(seen, "zoomed")) && cJSON_IsTrue(of(seen, "unzoomed")));
+        cr_expect_eq((int)cJSON_GetNumberValue(of(seen, "fewer")), (int)cJSON_GetNumberValue(of(seen, "all")) - 1);
+        cr_expect_str_eq(cJSON_GetStringValue(of(seen, "hash")), "#A=1.5");
+    }
+    bool skipped = !seen;
+    cJSON_Delete(seen);
+    place_clear(&p);
+    if (skipped) cr_skip_test("no chromium");
+}
+
+/* A tumbling box: at every time at most three of its faces are seen, the others are outlines without a fill; all of it stays in the picture, moves, and turns
+ * under the arrow keys. */
 Test(browser, bodies_in_space, PLAIN_ONLY)
 {
     place p = place_make();
     write_here(&p, "box.yaml", "name: box\nbodies: [{name: box, mass: 2, inertia: [0.3, 0.5, 0.7]}]\njoints: [{type: free, child: box, coordinates: [x, y, z, a, b, c]}]\ngravity: [0, 0, -1]\n");
     finished_clear((finished[]){run_expecting(&p, "simulate box.yaml --initial a=0.3,b=1,a'=1,b'=0.4,c'=2,x'=1 --until 2 --quiet --html page.html", 0)});
-    static const char *const LOOK =
-        "var out=[],b=document.getElementById('when');for(var i=0;b.max>=i;i+=10){b.value=i;b.dispatchEvent(new Event('input'));"
-        "var n=[0,0,0],d='';document.querySelectorAll('#scene path').forEach(function(e){if(e.getAttribute('visibility')==='hidden')return;var f=e.getAttribute('fill'),p=e.getAttribute('d');"
-        "if(p.slice(-1)!=='Z')return;n[f==='none'?1:0]++;d=p;p.match(/-?[0-9.]+/g).forEach(function(v,j){if(!(v>=0)||v>(j%2?420:640))n[2]++;});});out.push(n.concat([d]));}"
-        "var e=document.createElement('pre');e.id='seen';e.textContent=JSON.stringify(out);document.body.appendChild(e);";
-    write_with(&p, "page.html", "looked.html", 1, &LOOK);
-    char *seen = document_of(&p, "looked.html"), *at = seen ? strstr(seen, "<pre id=\"seen\">") : NULL;
-    if (seen) {
-        cr_assert_not_null(at);
-        cJSON *list = cJSON_Parse(at + strlen("<pre id=\"seen\">"));
-        const cJSON *time, *before = NULL;
-        cr_assert_geq(cJSON_GetArraySize(list), 5);
-        cJSON_ArrayForEach(time, list) {
-            int front = cJSON_GetArrayItem(time, 0)->valueint, behind = cJSON_GetArrayItem(time, 1)->valueint;
-            cr_expect(front >= 1 && front <= 3 && front + behind == 6, "%d faces are seen, %d are hidden", front, behind);
-            cr_expect_eq(cJSON_GetArrayItem(time, 2)->valueint, 0, "outside of the picture");
-            if (before) cr_expect_str_neq(cJSON_GetArrayItem(time, 3)->valuestring, cJSON_GetArrayItem(before, 3)->valuestring);
-            before = time;
-        }
-        cJSON_Delete(list);
+    cJSON *seen = page_after(&p, "nhsymLive.play(false);var box=$('.scene').viewBox.baseVal;function look(){var n=[0,0,0],d='';document.querySelectorAll('.scene g:nth-of-type(4) path').forEach(function(e){"
+                                 "var f=e.getAttribute('fill'),p=e.getAttribute('d');if(p.slice(-1)!=='Z')return;n[f==='none'?1:0]++;d=p;"
+                                 "p.match(/-?[0-9.]+/g).forEach(function(v,j){if(!(v>=0)||v>(j%2?box.height:box.width))n[2]++;});});return n.concat([d]);}"
+                                 "var out=[];for(var i=0;i<=1000;i+=50){slide($('#time'),i);out.push(look());}"
+                                 "$('.scene').dispatchEvent(new KeyboardEvent('keydown',{key:'ArrowLeft'}));out.push(look());leave(out);");
+    const cJSON *before = NULL;
+    if (seen) cr_assert_eq(cJSON_GetArraySize(seen), 22);
+    for (const cJSON *time = seen ? seen->child : NULL; time; before = time, time = time->next) {
+        int front = cJSON_GetArrayItem(time, 0)->valueint, behind = cJSON_GetArrayItem(time, 1)->valueint;
+        cr_expect(front >= 1 && front <= 3 && front + behind == 6, "%d faces are seen, %d are hidden", front, behind);
+        cr_expect_eq(cJSON_GetArrayItem(time, 2)->valueint, 0, "outside of the picture");
+        if (before) cr_expect_str_neq(cJSON_GetArrayItem(time, 3)->valuestring, cJSON_GetArrayItem(before, 3)->valuestring);
     }
     bool skipped = !seen;
-    free(seen);
+    cJSON_Delete(seen);
     place_clear(&p);
     if (skipped) cr_skip_test("no chromium");
 }
 
-/* The picture for paper shows the faces that the script draws at the end of the motion, and stands in the page's way on paper only. */
-Test(browser, the_still_picture_is_the_last_one, PLAIN_ONLY)
+/* A motion that the page cannot compute, here by its many states, is shown as it was computed, and the page says why. */
+Test(browser, a_large_motion_is_shown, PLAIN_ONLY)
 {
     place p = place_make();
-    write_here(&p, "box.yaml", "name: box\nbodies: [{name: box, mass: 2, inertia: [0.3, 0.5, 0.7]}]\njoints: [{type: free, child: box, coordinates: [x, y, z, a, b, c]}]\ngravity: [0, 0, -1]\n");
-    finished_clear((finished[]){run_expecting(&p, "simulate box.yaml --initial a=0.3,b=1,a'=1,b'=0.4,c'=2,x'=1 --until 2 --quiet --html page.html", 0)});
-    static const char *const LOOK =
-        "var b=document.getElementById('when');b.value=b.max;b.dispatchEvent(new Event('input'));"
-        "function faces(of){var o=[];document.querySelectorAll(of+' path').forEach(function(e){if(e.getAttribute('visibility')==='hidden'||e.getAttribute('fill')==='none')return;"
-        "o=o.concat(e.getAttribute('d').match(/-?[0-9.]+/g).map(Number));});return o;}"
-        "var s=faces('#scene'),t=faces('.still svg'),far=0;s.forEach(function(v,i){far=Math.max(far,Math.abs(v-t[i]));});"
-        "var e=document.createElement('pre');e.id='seen';e.textContent=s.length+' '+t.length+' '+far.toFixed(2)+' '+getComputedStyle(document.querySelector('.still')).display;document.body.appendChild(e);";
-    write_with(&p, "page.html", "looked.html", 1, &LOOK);
-    char *seen = document_of(&p, "looked.html"), *at = seen ? strstr(seen, "<pre id=\"seen\">") : NULL, shown[16] = "";
+    write_here(&p, "chain.yaml", "name: chain\ncoordinates: [a, b, c, d, e, f, g, h, i, j, k]\nlagrangian: (a'^2+b'^2+c'^2+d'^2+e'^2+f'^2+g'^2+h'^2+i'^2+j'^2+k'^2)/2 - ((a-b)^2+(b-c)^2+(c-d)^2+(d-e)^2+(e-f)^2+(f-g)^2+(g-h)^2+(h-i)^2+(i-j)^2+(j-k)^2)/2\n");
+    finished_clear((finished[]){run_expecting(&p, "simulate chain.yaml --initial a=1 --until 3 --json m.json --quiet --html page.html", 0)});
+    cJSON *seen = page_after(&p, "nhsymLive.play(false);slide($('#time'),1000);leave({told:$('#told').textContent,sliders:document.querySelectorAll('.sl').length,a:nhsymLive.motion.at(3)[0]});");
     if (seen) {
-        int moving = 0, still = 0;
-        double far = 1e9;
-        cr_assert_not_null(at);
-        cr_assert_eq(sscanf(at, "<pre id=\"seen\">%d %d %lf %15[a-z]", &moving, &still, &far, shown), 4, "%.80s", at);
-        cr_expect(moving >= 8 && moving == still, "%d and %d numbers", moving, still);
-        cr_expect_lt(far, 0.3, "%g pixels apart", far);
-        cr_expect_str_eq(shown, "none");
+        char *text = read_here(&p, "m.json");
+        cJSON *json = cJSON_Parse(text);
+        const cJSON *a = of(of(json, "states"), "a");
+        cr_expect_float_eq(cJSON_GetNumberValue(of(seen, "a")), cJSON_GetNumberValue(cJSON_GetArrayItem(a, cJSON_GetArraySize(a) - 1)), 1e-4);
+        cr_expect(strstr(cJSON_GetStringValue(of(seen, "told")), "22 states"), "%s", cJSON_GetStringValue(of(seen, "told")));
+        cr_expect_eq((int)cJSON_GetNumberValue(of(seen, "sliders")), 0);
+        cJSON_Delete(json);
+        free(text);
     }
     bool skipped = !seen;
-    free(seen);
-    place_clear(&p);
-    if (skipped) cr_skip_test("no chromium");
-}
-
-/* Played to its end the motion stays there, or with `loop` it begins again; at four times the speed it takes two seconds, of three that are
- * shown in frames of a tenth. */
-Test(browser, a_motion_ends_or_loops, PLAIN_ONLY)
-{
-#define FRAMES "var n=0;window.requestAnimationFrame=function(f){return n++<30?setTimeout(function(){f(100*n);},1):0;};"
-    static const char *const SCRIPT[] = {
-        FRAMES "document.getElementById('speed').value='4';document.getElementById('play').click();",
-        FRAMES "document.getElementById('speed').value='4';document.getElementById('loop').checked=true;document.getElementById('play').click();",
-    };
-    place p = place_with_page("analyze sleigh --quiet --html page.html");
-    bool skipped = false;
-    for (size_t i = 0; i < 2 && !skipped; i++) {
-        write_with(&p, "page.html", "played.html", 1, &SCRIPT[i]);
-        char *seen = document_of(&p, "played.html");
-        skipped = !seen;
-        if (seen) {
-            cr_expect_eq(strstr(seen, ">t = 10.00</output>") != NULL, i == 0, "%s", SCRIPT[i]);
-            cr_expect_eq(strstr(seen, ">Pause</button>") != NULL, i == 1, "%s", SCRIPT[i]);
-        }
-        free(seen);
-    }
+    cJSON_Delete(seen);
     place_clear(&p);
     if (skipped) cr_skip_test("no chromium");
 }
@@ -248,31 +340,6 @@ Test(browser, a_hostile_title_stays_text, PLAIN_ONLY)
 
 /* ---- a page looked at from within ---- */
 
-/* What a script left in the document as JSON, or NULL without a browser. */
-static cJSON *seen_in(const place *p, const char *page, const char *flags)
-{
-    char *document = document_in(p, page, flags), *seen = document ? strstr(document, "<pre id=\"seen\">") : NULL;
-    cr_assert(!document || seen, "the page was not looked at");
-    cJSON *json = NULL;
-    if (seen) {
-        char *text = seen + 15, *to = text;
-        *strstr(text, "</pre>") = 0;
-        for (const char *from = text; *from; to++) { /* entities that the browser writes within text */
-            static const char *const entity[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}};
-            size_t taken = 0;
-            for (size_t i = 0; i < 3 && !taken; i++)
-                if (!strncmp(from, entity[i][0], strlen(entity[i][0]))) *to = *entity[i][1], taken = strlen(entity[i][0]);
-            if (!taken) *to = *from, taken = 1;
-            from += taken;
-        }
-        *to = 0;
-        json = cJSON_Parse(text);
-        cr_assert(json, "%.300s", text);
-    }
-    free(document);
-    return json;
-}
-
 /* What look.js saw. */
 static cJSON *look_at(const place *p, const char *page, const char *flags)
 {
@@ -282,8 +349,6 @@ static cJSON *look_at(const place *p, const char *page, const char *flags)
     return seen_in(p, "looked.html", flags);
 }
 
-static const cJSON *of(const cJSON *object, const char *key) { return cJSON_GetObjectItem(object, key); }
-
 static void expect_no_fault(const cJSON *seen, const char *line)
 {
     cr_expect_gt(cJSON_GetNumberValue(of(seen, "rules")), 15, "%s: axe-core tried its rules", line);
@@ -292,20 +357,6 @@ static void expect_no_fault(const cJSON *seen, const char *line)
         cr_expect(impact && strcmp(impact, "serious") && strcmp(impact, "critical"), "%s: %s (%s), %g times, first at %s", line, cJSON_GetStringValue(of(f, "id")), impact,
                   cJSON_GetNumberValue(of(f, "nodes")), cJSON_GetStringValue(of(f, "where")));
     }
-}
-
-/* Curves over time have a point for every time in the JSON, or for every second one, ... when these are many. */
-static void expect_points(const cJSON *seen, const cJSON *result, const char *line)
-{
-    enum { most_points = 801 };
-    const cJSON *motion = of(of(result, "validation"), "motion");
-    int times = cJSON_GetArraySize(of(motion, "time")), step = times / most_points + 1, expected = (times + step - 1) / step, curves = 0;
-    for (const cJSON *plot = of(seen, "plots")->child; plot; plot = plot->next) {
-        if (!cJSON_IsTrue(of(plot, "timed"))) continue;
-        for (const cJSON *n = of(plot, "points")->child; n; n = n->next, curves++)
-            cr_expect_eq((int)n->valuedouble, expected, "%s: a curve of %s has %d points of %d", line, cJSON_GetStringValue(of(plot, "title")), (int)n->valuedouble, expected);
-    }
-    cr_expect_gt(curves, 2, "%s: %d curves over time", line, curves);
 }
 
 static const char *const SYSTEMS[] = {"sleigh", "car_with_trailer --option work=600", "three_bodies --option work=600", "kepler --option work=600"};
@@ -342,17 +393,12 @@ Test(browser, pages_are_as_they_should_be, PLAIN_ONLY)
         if (!sweep_tries(i, 18, 18)) continue;
         char line[200];
         place p;
-        snprintf(line, sizeof line, "analyze %s --quiet --html page.html --json page.json", SYSTEMS[i]);
+        snprintf(line, sizeof line, "analyze %s --quiet --html page.html", SYSTEMS[i]);
         cJSON *seen = page_looked_at(&p, line, i % 2 ? narrow_dark : wide_window);
         skipped = !seen;
         if (seen) {
-            char *json = read_here(&p, "page.json");
-            cJSON *result = cJSON_Parse(json);
             expect_sound(&p, seen, line);
             cr_expect_gt(cJSON_GetNumberValue(of(seen, "formulas")), 10, "%s", line);
-            expect_points(seen, result, line);
-            cJSON_Delete(result);
-            free(json);
         }
         cJSON_Delete(seen);
         place_clear(&p);

@@ -446,8 +446,8 @@ Test(cli, settings_reach_the_result, PLAIN_ONLY)
     place p = place_make();
     write_here(&p, "mine.yaml", FREE);
     finished f = run_expecting(&p, "analyze -v mine.yaml --set m=0.125", 0), last = run_expecting(&p, "analyze -v --set m=3 mine.yaml --set m=7.5", 0);
-    check_contains(f.out, "A particle without forces   with m = 0.125\n");
-    check_contains(last.out, "A particle without forces   with m = 7.5\n");
+    check_contains(f.out, "A particle without forces   m = 0.125\n");
+    check_contains(last.out, "A particle without forces   m = 7.5\n");
     finished_clear(&f);
     finished_clear(&last);
     place_clear(&p);
@@ -540,9 +540,9 @@ Test(cli, an_analysis_file_chooses_system_and_ansatz)
     write_here(&p, "mine.yaml", FREE);
     write_here(&p, "ask.yaml", "system: ./mine.yaml\nsearch: no\nset: {m: 4.5}\nansatz:\n  - terms: [\"x'\", \"x'*y\", x]\n");
     finished f = run_expecting(&p, "analyze -v --analysis ./ask.yaml", 0), g = run_expecting(&p, "analyze -v mine.yaml --analysis ./ask.yaml --set m=6.5", 0);
-    check_contains(f.out, "A particle without forces   with m = 4.5\n");
+    check_contains(f.out, "A particle without forces   m = 4.5\n");
     check_contains(f.out, "FOUND: 1 independent current");
-    check_contains(g.out, "A particle without forces   with m = 6.5\n"); /* the command line has the last word */
+    check_contains(g.out, "A particle without forces   m = 6.5\n"); /* the command line has the last word */
     finished_clear(&f);
     finished_clear(&g);
     place_clear(&p);

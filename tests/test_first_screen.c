@@ -1,6 +1,7 @@
 /* The first screen of an answer: on a terminal's 40 lines, in words that need no explanation, and with what the document says. */
 #include <criterion/criterion.h>
 #include <dirent.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -91,7 +92,7 @@ Test(first_screen, quantities_are_told_in_the_words_of_mechanics)
         {"sleigh", {"All 5 conserved quantities", "1 to 4 are proved for all m, a, k; 5 for k = 2", "Follows from the others.",
                     "The constraint y' = x'*tan(phi) is nonholonomic.", "x' = v*cos(phi)"}},
         {"henon_heiles", {"Only the energy is conserved", "Nothing else is conserved among polynomials in the velocities up to degree 6", "y'' = y^2 - y - x^2"}},
-        {"rolling_disk", {"3 independent conserved quantities were found. At most 8 can exist.\n 1  E"}}, /* of its motion some states only are known */
+        {"rolling_disk", {"3 independent conserved quantities were found. At most 8 can exist.   m = 1.3"}}, /* of its motion some states only are known */
         {"lagrange_top", {"p_s = ", "Angular momentum conjugate to s. From turning s."}},
     };
     place p = place_with_systems();
@@ -118,6 +119,132 @@ Test(first_screen, formulas_are_coloured_on_a_terminal)
     cr_expect(strstr(terminal.out, "\033[36m1  E = "), "%s", terminal.out);
     finished_clear(&pipe);
     finished_clear(&terminal);
+    place_clear(&p);
+}
+
+/* ---- classify, benchmark, linearize, scan ---- */
+
+/* The first screen and the JSON of the same run: the screen is checked for its size and words, and returned in one line
+ * for each paragraph. */
+static finished screen_with_json(const place *p, const char *line, nh_json **root)
+{
+    char all[600];
+    snprintf(all, sizeof all, "%.500s --json screen.json", line);
+    finished f = run_expecting(p, all, 0);
+    char *source = read_here(p, "screen.json");
+    *root = nh_json_parse(source);
+    free(source);
+    check_screen(line, f.out);
+    cr_expect(strstr(f.out, "\nMore: --details"), "%s\n%s", line, f.out);
+    one_line(f.out);
+    return f;
+}
+
+/* Each special place stands on the screen, and as many values as the headline says; where the JSON says that nothing else is
+ * special, the screen says that this is proved. */
+Test(first_screen, of_a_classification)
+{
+    static const char *const families[] = {"henon_heiles.yaml --over eps", "henon_heiles.yaml --over B,eps --degree 2", "contact.yaml --over b",
+                                           "suslov.yaml --over D --of measure", "knife.yaml --over b --degree 1", "sleigh.yaml --over a --degree 1",
+                                           "henon_heiles.yaml --over A,B,eps --degree 2 --option planes=1", "cubic.yaml --over c --degree 2"};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof families / sizeof *families; i++) {
+        char line[400], number[40];
+        if (!sweep_tries(i, 2, 3)) continue;
+        snprintf(line, sizeof line, "classify %.200s/tests/data/classify/%.100s", p.project, families[i]);
+        nh_json *root;
+        finished f = screen_with_json(&p, line, &root);
+        const nh_json *special = nh_json_get(root, "special"), *over = nh_json_get(root, "over");
+        size_t n = nh_json_count(special);
+        snprintf(number, sizeof number, "%zu value", n);
+        if (nh_json_count(over) == 1) cr_expect(strstr(f.out, n ? number : "No value of "), "%s: %zu\n%s", line, n, f.out);
+        for (size_t k = 0; k < n; k++) {
+            const nh_json *where = nh_json_get(nh_json_entry(special, k), "where");
+            const char *name[3], *one = nh_json_text(nh_json_entry(special, k), "where");
+            size_t names = one ? 0 : nh_json_names(where, 3, name);
+            if (one) cr_expect(strstr(f.out, one), "%s: no `%s` in\n%s", line, one, f.out);
+            for (size_t j = 0; j < names; j++) cr_expect(strstr(f.out, nh_json_text(where, name[j])), "%s: no `%s` in\n%s", line, nh_json_text(where, name[j]), f.out);
+        }
+        if (nh_json_is_true(root, "nowhere_else")) cr_expect(strstr(f.out, "proved"), "%s\n%s", line, f.out);
+        if (nh_json_count(nh_json_get(root, "currents")) && strstr(line, "henon")) cr_expect(strstr(f.out, "  E = "), "the energy has its sign: %s", f.out);
+        nh_json_free(root);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* The eigenvalues, conjugate ones in one line; and the place where the stability changes. */
+Test(first_screen, of_linear_equations)
+{
+    static const char *const lines[] = {"linearize whipple_bicycle --at x'=5", "linearize pendulum --at theta=pi", "linearize sleigh --at v=1", "linearize double_pendulum"};
+    place p = place_with_systems();
+    nh_json *root;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        finished f = screen_with_json(&p, lines[i], &root);
+        const nh_json *list = nh_json_get(root, "eigenvalues");
+        cr_expect_gt(nh_json_count(list), 0);
+        for (size_t k = 0; k < nh_json_count(list); k++) {
+            const nh_json *z = nh_json_entry(list, k);
+            double re = nh_json_value(z, "re"), im = nh_json_value(z, "im");
+            char text[100];
+            snprintf(text, sizeof text, im == 0 ? "  %.10g " : "  %.10g +- %.10g i ", re, fabs(im));
+            cr_expect(strstr(f.out, text), "%s: no `%s` in\n%s", lines[i], text, f.out);
+        }
+        nh_json_free(root);
+        finished_clear(&f);
+    }
+    finished f = screen_with_json(&p, "linearize whipple_bicycle --over x'=4,5,13/2", &root);
+    cr_expect(strstr(f.out, "changes at 2 values of x' between 4 and 13/2."), "%s", f.out);
+    cr_expect(strstr(f.out, "x' = 4.292382536: unstable below, stable but for 0 above") && strstr(f.out, "x' = 6.024262015: "), "%s", f.out);
+    nh_json_free(root);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+/* For each accuracy the fastest run, and all runs by what happened to them. */
+Test(first_screen, of_a_benchmark)
+{
+    place p = place_with_systems();
+    nh_json *root;
+    finished f = screen_with_json(&p, "benchmark pendulum --until 1 --budget 300ms", &root);
+    const nh_json *list = nh_json_get(root, "motion"), *goals = nh_json_get(root, "goals");
+    char text[100];
+    snprintf(text, sizeof text, "%zu runs: ", nh_json_count(list));
+    cr_expect(strstr(f.out, text), "no `%s` in\n%s", text, f.out);
+    for (size_t i = 0; i < nh_json_count(goals); i++) {
+        const nh_json *best = NULL;
+        for (size_t k = 0; k < nh_json_count(list); k++) {
+            const nh_json *m = nh_json_entry(list, k);
+            if (strcmp(nh_json_text(m, "status"), "right") || nh_json_is_true(m, "reduced") || !(nh_json_value(m, "error") <= nh_json_number_at(goals, i))) continue;
+            if (!best || nh_json_value(m, "seconds") < nh_json_value(best, "seconds")) best = m;
+        }
+        if (!best) continue;
+        snprintf(text, sizeof text, "%-13.0e%.29s", nh_json_number_at(goals, i), nh_json_text(best, "method"));
+        cr_expect(strstr(f.out, text), "no `%s` in\n%s", text, f.out);
+    }
+    nh_json_free(root);
+    finished_clear(&f);
+    place_clear(&p);
+}
+
+Test(first_screen, of_a_scan)
+{
+    place p = place_make();
+    write_here(&p, "a.yaml", "name: a\nparameters: {k: 0.2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2 - x^2*y - 2/3*sin(k)*y^3\n");
+    finished f = run_expecting(&p, "scan a.yaml --over k=0.1:1.4:8 --degree 2 -o out", 0);
+    check_screen("scan", f.out);
+    one_line(f.out);
+    char *source = read_here(&p, "out/scan.json"), text[100];
+    nh_json *root = nh_json_parse(source);
+    const nh_json *special = nh_json_get(root, "special");
+    cr_assert_eq(nh_json_count(special), 1);
+    snprintf(text, sizeof text, "k = %s = ", nh_json_text(nh_json_get(nh_json_entry(special, 0), "at"), "k"));
+    cr_expect(strstr(f.out, "1 confirmed special value, 0 not confirmed, from 8 points.") && strstr(f.out, text), "no `%s` in\n%s", text, f.out);
+    snprintf(text, sizeof text, "with 1): %g at 8 points", nh_json_value(nh_json_entry(nh_json_get(root, "points"), 0), "dimension"));
+    cr_expect(strstr(f.out, text), "no `%s` in\n%s", text, f.out);
+    nh_json_free(root);
+    free(source);
+    finished_clear(&f);
     place_clear(&p);
 }
 

@@ -391,14 +391,14 @@ Test(plane, points_on_curves_are_found, PLAIN_ONLY)
 {
     place p = place_make();
     write_system(&p, "mu: 0.4, la: 0.3", "(x'^2 + y'^2)/2 - x^4 - (mu - 3)*y^3 - (mu*la - 1 - mu)*(x^2*y + x*y^3)");
-    finished f = run_expecting(&p, "classify a.yaml --over mu,la --degree 2", 0);
+    finished f = run_expecting(&p, "classify a.yaml --over mu,la --degree 2 --details", 0);
     cr_expect(strstr(f.out, "mu*la - mu - 1 = 0") || strstr(f.out, "la*mu - mu - 1 = 0"), "%s", f.out);
-    cr_expect(strstr(f.out, "all of them proved for every mu, and complete to degree 2"), "%s", f.out);
+    cr_expect(strstr(f.out, "All proved for every mu; for almost all the list is complete up to degree 2."), "%s", f.out);
     cr_expect(strstr(f.out, "mu = 3, la = 4/3\n"), "%s", f.out);
     finished_clear(&f);
     write_system(&p, "m: 0.4, k: 0.3", "(x'^2 + m*y'^2)/2 - (x^2 + k*y^2)/2 - (x^2 + y^2)^2");
-    f = run_expecting(&p, "classify a.yaml --over m,k --degree 2", 0);
-    cr_expect(strstr(f.out, "all of them proved for every k, and complete to degree 2"), "%s", f.out);
+    f = run_expecting(&p, "classify a.yaml --over m,k --degree 2 --details", 0);
+    cr_expect(strstr(f.out, "All proved for every k; for almost all the list is complete up to degree 2."), "%s", f.out);
     cr_expect(strstr(f.out, "m = 1, k = 1   (on m - 1 = 0)"), "%s", f.out);
     cr_expect(strstr(f.out, "Degenerate, and not examined: m = 0"), "%s", f.out);
     finished_clear(&f);
@@ -461,10 +461,10 @@ Test(plane, documents_show_the_plane)
     finished_clear(&f);
     f = run_expecting(&p, "classify a.yaml --over mu --set la=2 --degree 2 --quiet --html out/line.html --tex out/line.tex", 0);
     char *text = file_of(&p, "line.html");
-    cr_expect(strstr(text, "<h2>More for</h2>") && strstr(text, "<h3><math"), "a value");
+    cr_expect(strstr(text, "<h2>Special values</h2>") && strstr(text, "<h3><math"), "a value");
     free(text);
     text = file_of(&p, "line.tex");
-    cr_expect(strstr(text, "\\section{More for}") && strstr(text, "\\subsection*{$\\mu  = 0$}"));
+    cr_expect(strstr(text, "\\section{Special values}") && strstr(text, "\\subsection*{$\\mu  = 0$}"));
     free(text);
     finished_clear(&f);
     place_clear(&p);

@@ -55,7 +55,7 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_chain,       "chain",       required_argument, "\"3; 1, 2\"",        "reduce", "a chain of normal subgroups, for a reduction by stages")                                                             \
     X(opt_inner,       "inner",       required_argument, "\"1,4=1/2; 4,4=3\"",  "reduce", "the inner product of generators that chooses the lifts by stages; else orthonormal") \
     X(opt_weak,        "weak",        no_argument,       "",                   "reduce export", "also allow symmetries up to a total derivative")              \
-    X(opt_to,          "to",          required_argument, "c|python|sympy|matlab|latex|json", "reduce export", "the language of the exported code") \
+    X(opt_to,          "to",          required_argument, "c|python|sympy|matlab|js|latex|json", "reduce export", "the language of the exported code") \
     X(opt_input,       "input",       required_argument, "\"u=sin(t)\"",       "simulate export", "parameters that are inputs; repeatable") \
     X(opt_like,        "like",        required_argument, "SYSTEM|FILE",        "new", "the system to begin with") \
     X(opt_name,        "name",        required_argument, "NAME",               "export", "what names of files and functions begin with") \

@@ -244,7 +244,8 @@ static bool gather(nh_export *x, const nh_export_request *q, unsigned wanted, nh
         if (!reduce(x, q, error)) return false;
         if (x->reduction) nh_export_stages(x, x->reduction);
     }
-    if (x->functions) return true;
+    bool model = x->to && !strcmp(x->to, "js");
+    if (x->functions || model) return true;
     return nh_fail(error, NH_NUMERIC, "", "there is nothing to export: %s", x->notes ? x->note[0] : "no part exists");
 }
 

@@ -183,6 +183,7 @@ struct nh_reduction {
     size_t warnings;
     const char *warning[16];
     double seconds;
+    const struct nh_simulation *motion; /* the whole motion, for a page that is being written; or NULL */
 };
 
 /* Finds the group and reduces; the caller frees the result.  NULL with a message on bad input (a file, fields that are

@@ -51,7 +51,7 @@ static bool read_scene(nh_simulation *s, nh_error *error)
     return nh_error_hint(error, "use --watch \"%s\" instead", s->system->coordinate[0].name);
 }
 
-static void list_columns(nh_simulation *s, bool draw)
+static void list_columns(nh_simulation *s, const char *also, bool draw)
 {
     const nh_model *o = s->model;
     nh_observables *t = &s->columns;
@@ -68,6 +68,10 @@ static void list_columns(nh_simulation *s, bool draw)
         nh_observables_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, o->mu[a]);
     nh_observables_add(t, "E", NH_TRACK_ENERGY, o->E);
     nh_observables_add_watches(t, s->analysis);
+    nh_ex e;
+    if (also && nh_system_expression_text(s->system, "", also, 0, NULL, &e, &ignored) &&
+        nh_analysis_file_to_chart(o, e, &e, &ignored))
+        nh_observables_add(t, "Phi", NH_TRACK_WATCH, e);
     if (draw) nh_observables_add_drawing(t, s->analysis);
 }
 
@@ -95,7 +99,7 @@ static bool choose_columns(nh_simulation *s, const nh_simulate_request *q, nh_er
     s->columns = nh_observables_create(s->arena, s->model);
     if (q->watch) return read_watch(s, q->watch, error);
     if (q->scene) return read_scene(s, error);
-    list_columns(s, q->draw && !q->ensemble);
+    list_columns(s, q->also, q->draw && !q->ensemble);
     return true;
 }
 

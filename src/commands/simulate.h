@@ -39,6 +39,7 @@ typedef struct {
     const char *watch;                       /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
     /* "y = 0, falling, stop; phi'": expressions whose zeros are recorded, or end the motion; or NULL */
     const char *event;
+    const char *also; /* "m*v": one more column, called Phi, for the page of another command; or NULL */
     const char *section; /* "x, rising": a Poincare section; or NULL */
     const char *axes;    /* "y, y'": the columns of the picture; NULL: chosen */
     bool scene;                              /* the same with the observables of the analysis file */

@@ -11,6 +11,7 @@
 #include "base/budget.h"
 #include "base/linalg.h"
 #include "base/progress.h"
+#include "motion/first_state.h"
 
 nh_analysis_file *nh_simulate_initial(const char *from, const char *initial, nh_error *error)
 {
@@ -82,41 +83,6 @@ static bool resolve_again(nh_simulation *s, const nh_simulate_request *q, nh_ana
     return resolve(s, q, own, error);
 }
 
-/* Do the equations of motion depend on the time? */
-static bool depends_on_time(const nh_model *o)
-{
-    const nh_ex t = o->system->t;
-    bool any = nh_depends(o->dag, o->Lbar, t);
-    for (size_t i = 0; i < o->m; i++) any |= nh_depends(o->dag, o->rho[i], t);
-    for (size_t i = 0; i < o->n; i++) any |= nh_depends(o->dag, o->a[i], t);
-    return any;
-}
-
-/* Rounds a point of the chart to few digits, where positions are free.  False: it is no longer in the chart. */
-static bool round_point(const nh_model *o, double *z)
-{
-    enum { digits = 2 };
-    for (size_t a = 0; a < o->system->constraints; a++)
-        if (o->system->constraint[a].position) return false;
-    for (size_t i = 0; i < 1 + o->m + o->n; i++) {
-        char text[32];
-        snprintf(text, sizeof text, "%.*g", digits, z[i]);
-        z[i] = strtod(text, NULL);
-    }
-    return nh_chart_complete(o->chart, z);
-}
-
-/* The velocities at a point of the chart; false where they are not finite. */
-static bool velocities_at(const nh_model *o, const double *z, double *v)
-{
-    nh_tape *tape = nh_model_tape(o, o->m, o->rho);
-    nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, z, v);
-    nh_tape_work_free(work);
-    nh_tape_free(tape);
-    return nh_all_finite(o->m, v);
-}
-
 /* The state as text after --initial: coordinates and the independent velocities. */
 static const char *words_of_point(const nh_simulation *s, const double *z)
 {
@@ -143,20 +109,14 @@ static bool choose_initial(nh_simulation *s, nh_state *initial)
     *initial = (nh_state){.q = nh_arena_alloc(s->arena, o->m * sizeof(double)),
                           .v = nh_arena_alloc(s->arena, o->m * sizeof(double))};
     memcpy(z, o->chart->probe, o->width * sizeof *z);
-    double t = depends_on_time(o) ? z[0] : 0;
-    z[0] = t;
-    if (!round_point(o, z) || !velocities_at(o, z, initial->v)) {
-        memcpy(z, o->chart->probe, o->width * sizeof *z);
-        z[0] = t;
-        velocities_at(o, z, initial->v);
-    }
+    if (!nh_first_state(o, z, initial->v)) return false;
     initial->t = z[0];
     memcpy(initial->q, z + 1, o->m * sizeof(double));
     nh_simulate_assemble(s, initial);
     if (s->assembled) { /* the probe satisfies the constraints between velocities alone */
         s->assembled = NULL;
         memcpy(z + 1, initial->q, o->m * sizeof(double));
-        if (!nh_chart_complete(o->chart, z) || !velocities_at(o, z, initial->v)) return false;
+        if (!nh_first_state(o, z, initial->v)) return false;
     }
     s->begin = words_of_point(s, z);
     return true;

@@ -45,6 +45,7 @@ struct nh_verification {
      * [CechMusilova2014], or 0 */
     const char *equation;
     size_t equation_number;
+    const struct nh_simulation *motion; /* one motion, for a page that is being written; or NULL */
 };
 
 /* Tests a function.  These three take the system: the caller frees it with the result, and it is freed already on

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "document/current_words.h"
 #include "document/facts.h"
 #include "document/formula.h"
 #include "document/screen.h"
@@ -32,11 +33,6 @@ static void say(const screen *x, size_t indent, nh_text *words) { nh_screen_say(
 
 /* ---- the headline ---- */
 
-static bool is_energy(const nh_current *f)
-{
-    return f->energy && (!strcmp(f->meaning, "energy") || !strncmp(f->meaning, "minus", 5));
-}
-
 static const nh_completeness *counted_first(const nh_analysis *r)
 {
     const nh_completeness *c = &r->completeness[r->completeness[0].counted ? 0 : 1];
@@ -54,78 +50,63 @@ static const char *left_open(const nh_analysis *r)
     return "";
 }
 
-static void headline(const screen *x)
+/* Every quantity. */
+static bool all_proved(const nh_analysis *r)
 {
-    const nh_analysis *r = x->r;
+    bool all = true;
+    for (size_t k = 0; k < r->count; k++) all = all && r->found[k].proof.proved && !r->found[k].series;
+    return all;
+}
+
+void nh_analysis_answer_headline(const nh_analysis *r, nh_text *out)
+{
     size_t n = r->independent, most = r->local_maximum;
-    nh_text words;
-    nh_text_init(&words);
-    const char *proved = x->all_proved ? " and proved" : "";
+    const char *proved = all_proved(r) ? " and proved" : "";
     size_t ends = nh_analysis_to_the_end(r);
     if (!r->count && r->verdict == NH_FOUND)
-        nh_text_addf(&words, "%zu quantit%s conserved until motions end. At most %zu can exist.", ends,
+        nh_text_addf(out, "%zu quantit%s conserved until motions end. At most %zu can exist.", ends,
                      ends == 1 ? "y is" : "ies are", most);
-    else if (!r->count && r->verdict == NH_NONE) nh_text_add(&words, "Nothing that was tried is conserved.");
-    else if (!r->count && r->pieces) nh_text_add(&words, "Nothing was found that is conserved along all motions.");
-    else if (!r->count) nh_text_add(&words, "Undecided: nothing was found that is surely conserved.");
+    else if (!r->count && r->verdict == NH_NONE) nh_text_add(out, "Nothing that was tried is conserved.");
+    else if (!r->count && r->pieces) nh_text_add(out, "Nothing was found that is conserved along all motions.");
+    else if (!r->count) nh_text_add(out, "Undecided: nothing was found that is surely conserved.");
     else if (n == most && n == 1)
-        nh_text_addf(&words, "The only conserved quantity that can exist was found%s.", proved);
-    else if (n == most) nh_text_addf(&words, "All %zu conserved quantities that can exist were found%s.", n, proved);
-    else if (n == 1 && is_energy(&r->found[0]))
-        nh_text_addf(&words, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.",
+        nh_text_addf(out, "The only conserved quantity that can exist was found%s.", proved);
+    else if (n == most) nh_text_addf(out, "All %zu conserved quantities that can exist were found%s.", n, proved);
+    else if (n == 1 && nh_current_is_energy(&r->found[0]))
+        nh_text_addf(out, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.",
                      most);
     else
-        nh_text_addf(&words, "%zu independent conserved quantit%s found. At most %zu can exist.", n,
+        nh_text_addf(out, "%zu independent conserved quantit%s found. At most %zu can exist.", n,
                      n == 1 ? "y was" : "ies were", most);
     const nh_explicit_motion *m = r->motion;
     if (r->count && m && m->proved && m->known == m->states && !m->integrals)
-        nh_text_addf(&words, " The motion is known in closed form%s%s%s.", m->fixed ? " for " : "",
+        nh_text_addf(out, " The motion is known in closed form%s%s%s.", m->fixed ? " for " : "",
                      m->fixed ? nh_fixed_text(r->model, m->fixed) : "", m->region ? ", piece by piece" : "");
-    if (*left_open(r)) nh_text_addf(&words, " %s", left_open(r));
-    say(x, 0, &words);
+    if (*left_open(r)) nh_text_addf(out, " %s", left_open(r));
+}
+
+static void headline(const screen *x)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_analysis_answer_headline(x->r, &words);
+    nh_screen_begin(x->out, x->colour, x->r->system, NULL, &words);
 }
 
 /* ---- the quantities ---- */
 
-/* Its sign as readers know it: E and not -E. */
-nh_ex nh_answer_shown(const nh_analysis *r, const nh_current *f)
+nh_ex nh_analysis_answer_shown(const nh_analysis *r, const nh_current *f)
 {
-    nh_dag *d = r->model->dag;
-    nh_ex e = strncmp(f->meaning, "minus", 5) ? f->phi : nh_neg(d, f->phi);
-    const nh_chart *chart = r->model->chart;
-    return nh_formula_shortened(r->analysis, d, nh_chart_shown(chart, e));
-}
-
-const char *nh_answer_label(const nh_analysis *r, const nh_current *f)
-{
-    nh_dag *d = r->model->dag;
-    if (is_energy(f) && !nh_depends(d, f->phi, nh_symbol(d, "E"))) return "E = ";
-    const char *of = strstr(f->meaning, "momentum of ");
-    bool bare = of && (of == f->meaning || !strncmp(f->meaning, "minus the ", 10));
-    const char *p = bare ? nh_arena_printf(r->arena, "p_%s", of + strlen("momentum of ")) : NULL;
-    return p && !nh_depends(d, f->phi, nh_symbol(d, p)) ? nh_arena_printf(r->arena, "%s = ", p) : "";
+    nh_ex e = nh_chart_shown(r->model->chart, nh_current_signed(r, f, f->phi));
+    return nh_formula_shortened(r->analysis, r->model->dag, e);
 }
 
 /* "2  p_x = m*x'"; NULL: the words in its place.  Was the formula written? */
 static bool put_formula(const screen *x, size_t number, const char *label, char *formula, const char *instead)
 {
-    nh_text text, block;
-    nh_text_init(&text);
-    nh_text_init(&block);
-    nh_text_addf(&text, "%-*zu%s", number < 10 ? 3 : 4, number, label);
-    size_t head = text.length;
-    nh_text_add(&text, formula ? formula : instead);
-    nh_sheet_broken(0, NH_SCREEN_HANG + 2, nh_text_string(&text), &block);
-    size_t n = nh_screen_count(nh_text_string(&block));
-    bool written = formula && n <= (x->terse ? short_lines : formula_lines);
-    if (formula && !written) {
-        nh_text_clear(&block);
-        nh_text_addf(&block, "%.*sa formula of %zu lines (--details)\n", (int)head, nh_text_string(&text), n);
-    }
-    nh_screen_formula(x->out, x->colour, nh_text_string(&block));
+    const char *head = nh_arena_printf(x->r->arena, "%-*zu%s", number < 10 ? 3 : 4, number, label);
+    bool written = nh_screen_put(x->out, x->colour, 0, head, formula, x->terse ? short_lines : formula_lines, instead);
     nh_free(formula);
-    nh_text_clear(&text);
-    nh_text_clear(&block);
     return written;
 }
 
@@ -149,7 +130,7 @@ static void put_where(const nh_analysis *r, const nh_current *f, nh_text *out)
 }
 
 /* How sure it is: of a proved one " for all m, k" or "", after "proved"; of another one a sentence. */
-const char *nh_answer_proof(const nh_analysis *r, const nh_current *f)
+const char *nh_analysis_answer_proof(const nh_analysis *r, const nh_current *f)
 {
     nh_text out;
     nh_text_init(&out);
@@ -198,7 +179,7 @@ static void put_proofs(const screen *x)
 }
 
 /* "Energy.", "Momentum of x." */
-void nh_answer_meaning(const nh_analysis *r, const nh_current *f, bool rotations, nh_text *out)
+void nh_analysis_answer_meaning(const nh_analysis *r, const nh_current *f, bool rotations, nh_text *out)
 {
     const char *m = strncmp(f->meaning, "minus the ", 10) ? f->meaning : f->meaning + 10;
     const char *of = strstr(m, "momentum of ") == m ? m + strlen("momentum of ") : NULL;
@@ -218,10 +199,11 @@ static void put_quantity(const screen *x, size_t k)
     nh_text_init(&words);
     nh_text_init(&symmetry);
     bool written = !f->series && x->list.stands[k];
-    x->written[k] = put_formula(x, k + 1, nh_answer_label(r, f), written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL,
+    char *formula = written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL;
+    x->written[k] = put_formula(x, k + 1, nh_current_label(r, f), formula,
                                 f->series ? "a series (--details)" : "a long formula (--details)");
     bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry);
-    nh_answer_meaning(r, f, rotations, &words);
+    nh_analysis_answer_meaning(r, f, rotations, &words);
     bool follows = f->independence == NH_DEPENDENT;
     if (symmetry.length && !x->terse && !follows) nh_text_addf(&words, "From %s. ", nh_text_string(&symmetry));
     if (follows) nh_text_add(&words, "Follows from the others. ");
@@ -268,9 +250,11 @@ static void put_regions(const screen *x)
         const nh_current *f = &r->piece[k];
         nh_text words;
         nh_text_init(&words);
-        put_formula(x, r->count + k + 1, "", nh_print_short(r->model->dag, nh_answer_shown(r, f), r->options.shown),
+        char *formula = nh_print_short(r->model->dag, nh_analysis_answer_shown(r, f), r->options.shown);
+        put_formula(x, r->count + k + 1, "", formula,
                     "a long formula (--details)");
-        nh_text_addf(&words, "Constant only %s. %s%s.", f->region, f->proof.proved ? "Proved" : "", nh_answer_proof(r, f));
+        nh_text_addf(&words, "Constant only %s. %s%s.", f->region, f->proof.proved ? "Proved" : "",
+                     nh_analysis_answer_proof(r, f));
         say(x, r->count + k < 9 ? 3 : 4, &words);
     }
 }
@@ -280,7 +264,7 @@ static void quantities(screen *x)
     const nh_analysis *r = x->r;
     nh_ex *e = nh_alloc_array(r->count + 1, sizeof *e);
     size_t names = 0;
-    for (size_t k = 0; k < r->count; k++) e[k] = nh_answer_shown(r, &r->found[k]);
+    for (size_t k = 0; k < r->count; k++) e[k] = nh_analysis_answer_shown(r, &r->found[k]);
     x->list = nh_formula_list_make(r->model->dag, r->count, e, r->options.shown, &names);
     if (r->count) nh_text_add(x->out, "\n");
     for (size_t k = 0; k < r->count; k++) put_quantity(x, k);
@@ -307,35 +291,39 @@ static const char *functions_of(const nh_analysis *r, bool time)
 }
 
 /* Is the statement the usual one: all integrals are polynomials in those found, everywhere, and all are proved? */
-static bool is_plain(const screen *x, const nh_completeness *c)
+static bool is_plain(const nh_analysis *r, const nh_completeness *c)
 {
-    return c->degree && c->linear && !c->regional && !c->count.where && !c->count.leaf && x->all_proved;
+    return c->degree && c->linear && !c->regional && !c->count.where && !c->count.leaf && all_proved(r);
 }
 
-static void completeness(const screen *x)
+void nh_analysis_answer_completeness(const nh_analysis *r, nh_text *out)
 {
-    const nh_analysis *r = x->r;
     const nh_completeness *c = counted_first(r), *time = &r->completeness[NH_COMPLETE_IN_TIME];
-    nh_text words;
     if (r->search == NH_SEARCH_COMPLETE && r->independent >= r->local_maximum) return;
-    nh_text_init(&words);
-    if (!c || !is_plain(x, c)) {
-        nh_facts_completeness(r, &words);
+    if (!c || !is_plain(r, c)) {
+        nh_facts_completeness(r, out);
     } else {
-        nh_text_addf(&words,
+        nh_text_addf(out,
                      "Nothing else is conserved among polynomials in the velocities up to degree %zu, with any "
                      "functions of %s as coefficients", c->degree, functions_of(r, c == time));
         bool timed = c != time && time->counted && !time->count.obstacle && time->degree;
         if (timed && time->degree < c->degree)
-            nh_text_addf(&words, " (up to degree %zu if they may contain t)", time->degree);
-        else if (timed) nh_text_add(&words, ", which may contain t");
-        nh_text_addf(&words, "%s: proved.", r->count ? ", apart from combinations of these" : "");
+            nh_text_addf(out, " (up to degree %zu if they may contain t)", time->degree);
+        else if (timed) nh_text_add(out, ", which may contain t");
+        nh_text_addf(out, "%s: proved.", r->count ? ", apart from combinations of these" : "");
         const nh_completeness *open = c->missing_at ? c : timed && time->missing_at ? time : NULL;
         if (open)
-            nh_text_addf(&words, " At degree %zu%s %zu more %s not ruled out.", open->missing_at,
+            nh_text_addf(out, " At degree %zu%s %zu more %s not ruled out.", open->missing_at,
                          open == time && c != time ? ", with t in the coefficients," : "", open->missing,
                          open->missing == 1 ? "is" : "are");
     }
+}
+
+static void completeness(const screen *x)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_analysis_answer_completeness(x->r, &words);
     say(x, 0, &words);
 }
 
@@ -407,9 +395,10 @@ static void equations(const screen *x, size_t room)
 static void more(const screen *x)
 {
     const nh_analysis *r = x->r;
-    nh_text_addf(x->out, "\nMore: --details   symmetries, equations%s, checks, the search\n",
-                 r->motion ? ", the motion" : r->model->k ? ", constraint forces" : "");
-    nh_text_add(x->out, "      --html FILE the same, with the motion, in a page\n");
+    nh_screen_more(x->out, r->motion     ? "symmetries, equations, the motion, checks, the search"
+                           : r->model->k ? "symmetries, equations, constraint forces, checks, the search"
+                                         : "symmetries, equations, checks, the search",
+                   "--html FILE the same, with the motion, in a page");
 }
 
 static void furthers(const screen *x)
@@ -426,7 +415,6 @@ static void write(screen *x)
 {
     enum { tail = 3 };
     const nh_analysis *r = x->r;
-    nh_screen_title(r->system, x->colour, x->out);
     headline(x);
     quantities(x);
     nh_text_add(x->out, "\n");
@@ -444,13 +432,10 @@ void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
 {
     nh_text text;
     nh_text_init(&text);
-    screen x = {.r = r, .out = &text, .colour = colour, .all_proved = true};
+    screen x = {.r = r, .out = &text, .colour = colour, .all_proved = all_proved(r)};
     x.proof = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.proof);
     x.written = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.written);
-    for (size_t k = 0; k < r->count; k++) {
-        x.proof[k] = nh_answer_proof(r, &r->found[k]);
-        x.all_proved = x.all_proved && r->found[k].proof.proved && !r->found[k].series;
-    }
+    for (size_t k = 0; k < r->count; k++) x.proof[k] = nh_analysis_answer_proof(r, &r->found[k]);
     write(&x);
     if (nh_screen_count(nh_text_string(&text)) > NH_SCREEN_LINES) {
         nh_text_clear(&text);

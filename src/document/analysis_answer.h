@@ -8,15 +8,20 @@
 /* At most 40 lines of 80 columns, unless the answer itself needs more. */
 void nh_analysis_write_answer(const nh_analysis *result, bool colour, nh_text *out);
 
-/* ---- of one quantity, for other first screens ---- */
+/* ---- for other first screens ---- */
+
+/* "All 5 conserved quantities that can exist were found and proved." */
+void nh_analysis_answer_headline(const nh_analysis *result, nh_text *out);
+/* Can there be more?  Adds nothing where the headline says that there cannot. */
+void nh_analysis_answer_completeness(const nh_analysis *result, nh_text *out);
+
+/* ---- of one quantity ---- */
 
 /* With its sign as readers know it: E and not -E. */
-nh_ex nh_answer_shown(const nh_analysis *result, const nh_current *found);
-/* "E = ", "p_x = ", or "". */
-const char *nh_answer_label(const nh_analysis *result, const nh_current *found);
+nh_ex nh_analysis_answer_shown(const nh_analysis *result, const nh_current *found);
 /* Adds "Energy. ", "Momentum conjugate to x. ", or nothing.  `rotations`: it comes from rotations of positions. */
-void nh_answer_meaning(const nh_analysis *result, const nh_current *found, bool rotations, nh_text *out);
+void nh_analysis_answer_meaning(const nh_analysis *result, const nh_current *found, bool rotations, nh_text *out);
 /* How sure it is: of a proved one " for all m, k" or "", after "proved"; of another one a sentence without its end. */
-const char *nh_answer_proof(const nh_analysis *result, const nh_current *found);
+const char *nh_analysis_answer_proof(const nh_analysis *result, const nh_current *found);
 
 #endif

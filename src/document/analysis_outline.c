@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "document/analysis_answer.h"
+#include "document/screen.h"
 #include "document/analysis_outline_internal.h"
 #include "document/analysis_stage.h"
 #include "document/facts.h"
@@ -19,49 +20,48 @@ void nh_analysis_write_meaning(nh_pen *p, const nh_analysis *r, const char *mean
     if (name) nh_pen_name(p, name);
 }
 
-/* "; one is minus the energy, one the momentum of x"; ": minus the energy" for a single current */
-static void meanings(nh_pen *p, const nh_analysis *r)
+/* The words of the first screen. */
+static void answer_of_a_page(nh_pen *p, const nh_analysis *r)
 {
-    size_t told = 0;
-    for (size_t k = 0; k < r->count; k++) {
-        const char *meaning = r->found[k].meaning;
-        if (!meaning[0] || r->found[k].independence != NH_INDEPENDENT) continue;
-        bool bare = !strncmp(meaning, "energy", 6) || !strncmp(meaning, "momentum", 8);
-        nh_pen_say(p, told++ ? ", one " : r->independent == 1 ? ": " : "; one is ");
-        nh_pen_say(p, "%s", bare ? "the " : !strncmp(meaning, "integral", 8) ? "an " : "");
-        nh_analysis_write_meaning(p, r, meaning);
-    }
+    static const char *const class[] = {"found", "none", "undecided"};
+    nh_text words;
+    nh_text_init(&words);
+    nh_analysis_answer_headline(r, &words);
+    nh_pen_open(p, NH_PEN_ANSWER, class[r->verdict], NULL);
+    nh_pen_say(p, "%s", nh_text_string(&words));
+    nh_pen_close(p, NH_PEN_ANSWER);
+    nh_text_clear(&words);
+    if (r->count && r->verdict == NH_UNDECIDED)
+        nh_pen_words(p, "Not all of them are certified; each card states its certificate.");
+    if (r->partial) nh_pen_warning(p, nh_facts_search(r));
+    nh_analysis_answer_completeness(r, &words);
+    if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
+    nh_text_clear(&words);
 }
 
-static void answer(nh_pen *p, const nh_analysis *r)
+static void answer_of_details(nh_pen *p, const nh_analysis *r)
 {
-    static const char *const class[] = {"found", "none", "undecided"}, *const verdict[] = {"FOUND", "NONE",
-                                                                                           "UNDECIDED"};
+    static const char *const verdict[] = {"FOUND", "NONE", "UNDECIDED"};
     nh_text words;
     nh_text_init(&words);
     nh_facts_completeness(r, &words);
-    nh_pen_open(p, NH_PEN_ANSWER, class[r->verdict], NULL);
-    if (p->ink->brief) nh_pen_say(p, "%s: ", verdict[r->verdict]);
+    nh_pen_open(p, NH_PEN_ANSWER, NULL, NULL);
+    nh_pen_say(p, "%s: ", verdict[r->verdict]);
     if (r->count)
         nh_pen_say(p, "%zu independent current%s of at most %zu", r->independent, plural(r->independent),
                    r->local_maximum);
     else if (r->verdict == NH_FOUND) nh_pen_say(p, "%s", nh_facts_between_walls(r));
-    else if (p->ink->brief)
+    else
         nh_pen_say(p, "no current%s %s", r->pieces ? " of all motions" : "",
                    r->verdict == NH_NONE ? "in this ansatz" : "so far");
-    else nh_pen_say(p, "%s", nh_facts_nothing(r));
-    if (p->ink->brief)
-        nh_pen_say(p, nh_analysis_by_trial(r) ? " (unknowns sought by trial)" : " (search %s)",
-                   nh_search_word(r->search));
-    else meanings(p, r), nh_pen_say(p, ".");
+    nh_pen_say(p, nh_analysis_by_trial(r) ? " (unknowns sought by trial)" : " (search %s)",
+               nh_search_word(r->search));
     nh_pen_close(p, NH_PEN_ANSWER);
     if (r->count && r->verdict == NH_UNDECIDED)
         nh_pen_words(p, "Not all of them are certified; each card states its certificate.");
-    if (r->partial && !p->ink->brief) nh_pen_warning(p, nh_facts_search(r));
-    else if (!p->ink->brief) nh_pen_words(p, "%s", nh_facts_search(r));
     if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
-    if (p->ink->brief && nh_analysis_by_trial(r)) nh_pen_words(p, "%s", nh_facts_search(r));
-    if (p->ink->brief && nh_facts_given(r) && !r->stages && r->search == NH_SEARCH_EXHAUSTED)
+    if (nh_analysis_by_trial(r)) nh_pen_words(p, "%s", nh_facts_search(r));
+    if (nh_facts_given(r) && !r->stages && r->search == NH_SEARCH_EXHAUSTED)
         nh_pen_words(p,
                      "The ansatz is that of the analysis file. With --no-analysis the program chooses what it tries.");
     nh_text_clear(&words);
@@ -84,9 +84,9 @@ static void links(nh_pen *p, const nh_analysis *r)
 {
     nh_text sections;
     nh_text_init(&sections);
-    nh_text_addf(&sections, "currents|Currents|%s%ssystem|System|%s%ssearch|%s|words|Words|repeat|Repeat it",
-                 r->validation ? "motion|Motion|" : "", r->figures ? "figures|Figures|" : "",
-                 r->motion ? "explicit|Explicit motion|" : "", r->theory ? "geometry|Geometry|" : "",
+    nh_text_addf(&sections, "system|System|%scurrents|Currents|%s%s%ssearch|%s|words|Words|repeat|Repeat it",
+                 r->theory ? "geometry|Geometry|" : "", r->motion ? "explicit|Explicit motion|" : "",
+                 r->validation ? "motion|Validation|" : "", r->figures ? "figures|Figures|" : "",
                  r->count ? "How it was found" : "The search");
     p->ink->links(p->to, nh_text_string(&sections));
     nh_text_clear(&sections);
@@ -101,9 +101,29 @@ static void explicit_motion(nh_pen *p, const nh_analysis *r)
     nh_pen_sheet(p, sheet);
 }
 
+static void as_a_paper(nh_pen *p, const nh_analysis *r)
+{
+    nh_pen_system(p, r->model, r);
+    nh_pen_geometry(p, r->arena, r->theory);
+    nh_analysis_write_currents(p, r);
+    explicit_motion(p, r);
+    nh_analysis_write_motion(p, r);
+    nh_analysis_write_figures(p, r);
+}
+
+/* First what was asked. */
+static void on_a_terminal(nh_pen *p, const nh_analysis *r)
+{
+    nh_analysis_write_currents(p, r);
+    nh_analysis_write_motion(p, r);
+    nh_pen_system(p, r->model, r);
+    explicit_motion(p, r);
+    nh_pen_geometry(p, r->arena, r->theory);
+}
+
 void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
 {
-    if (style.form == NH_PEN_TEXT && !style.verbose && !r->theory) {
+    if (nh_screen_is_wanted(style) && !r->theory) {
         nh_analysis_write_answer(r, style.colour, out);
         return;
     }
@@ -118,21 +138,18 @@ void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
                               .shown = r->options.shown,
                               .written = r->options.written};
     nh_pen_begin(p, style, &subject, NULL, out);
-    answer(p, r);
+    if (p->ink->brief) answer_of_details(p, r);
+    else answer_of_a_page(p, r);
     nh_stage *stage = p->ink->stage ? nh_analysis_stage(r, &run) : NULL;
     if (stage) p->ink->stage(p->to, stage);
     links(p, r);
     for (size_t i = 0; i < r->warnings; i++) warning(p, r, r->warning[i]);
-    nh_analysis_write_currents(p, r);
-    nh_analysis_write_motion(p, r);
-    nh_analysis_write_figures(p, r);
-    nh_pen_system(p, r->model, r);
-    explicit_motion(p, r);
-    nh_pen_geometry(p, r->arena, r->theory);
+    if (p->ink->brief) on_a_terminal(p, r);
+    else as_a_paper(p, r);
     nh_analysis_write_search(p, r);
     nh_pen_glossary(
         p, "current, symmetry, case, distribution, projectable, independent, local, residual, drift, gap, multiplier, "
            "nonholonomic, growth");
     nh_pen_end(p, &run);
-    nh_analysis_stage_free(stage);
+    nh_stage_free(stage);
 }

@@ -138,42 +138,6 @@ static void field(nh_pen *p, const nh_analysis *r, const nh_current *f)
     nh_pen_close(p, NH_PEN_FOLD);
 }
 
-/* |Phi - Phi(0)| over the size of its terms. */
-static void drift_plot(nh_pen *p, const nh_analysis *r, const nh_current *f)
-{
-    const nh_validation *v = r->validation;
-    size_t j = 0;
-    bool drawn = p->ink->screen || p->ink->brief;
-    bool measured = v && f->drift.scale > 0 && isfinite(f->drift.drift[NH_DRIFT_RUNS - 1]);
-    if (!drawn || !measured || v->count < 2) return;
-    const nh_track *track = r->tracks.track;
-    while (j < v->watches && track[j].value != f->phi) j++;
-    while (j < v->watches && track[j].kind != NH_TRACK_CURRENT) j++;
-    if (j == v->watches) return;
-    double *y = nh_alloc_array(v->count, sizeof *y), first = v->watch[j];
-    for (size_t i = 0; i < v->count; i++) y[i] = fabs(v->watch[i * v->watches + j] - first) / f->drift.scale;
-    nh_curve curve = {.name = f->name, .count = v->count, .x = v->time, .x_stride = 1, .y = y, .y_stride = 1};
-    char title[200];
-    snprintf(title, sizeof title, "Drift of %.100s along the test motion", f->name);
-    nh_plot plot = {
-        .title = title,
-        .description =
-            "Absolute change since the start, relative to the size of the terms of the current, on a logarithmic scale",
-        .x_label = "t",
-        .y_label = "relative change",
-        .log_y = true,
-        .floor = 1e-17,
-        .timed = true,
-        .curves = 1,
-        .curve = &curve};
-    nh_pen_open(p, NH_PEN_SCREEN, NULL, "Drift plot");
-    nh_pen_plot(p, &plot,
-                "Change of the current since the start, relative to the size of its terms; rounding is near "
-                "10\u207b\u00b9\u2076.");
-    nh_pen_close(p, NH_PEN_SCREEN);
-    nh_free(y);
-}
-
 static void as_text(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
     nh_dag *d = r->model->dag;
@@ -278,7 +242,7 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *
     const nh_validation *v = r->validation;
     double drift = f->drift.drift[NH_DRIFT_RUNS - 1];
     nh_pen_card(p, NULL);
-    nh_pen_name_heading(p, f->name);
+    nh_pen_name_heading(p, nh_arena_printf(r->arena, "q-%s", f->name), f->name);
     tags(p, r, f);
     if (f->relation) p->ink->equation(p->to, "", f->relation);
     if (f->series) nh_analysis_write_series(p, r, f);
@@ -300,7 +264,6 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *
     }
     nh_pen_close(p, NH_PEN_FACTS);
     if (f->has_symmetry && !f->series) field(p, r, f);
-    drift_plot(p, r, f);
     if (!f->series) as_text(p, r, f);
 }
 
@@ -310,7 +273,7 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *
 static void uncounted(nh_pen *p, const nh_analysis *r, const nh_current *f, const char *property)
 {
     nh_pen_card(p, NULL);
-    nh_pen_name_heading(p, f->name);
+    nh_pen_name_heading(p, NULL, f->name);
     nh_pen_open(p, NH_PEN_TAGS, NULL, NULL);
     nh_pen_open(p, NH_PEN_TAG, NULL, NULL);
     nh_pen_theory(p, property);

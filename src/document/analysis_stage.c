@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "document/analysis_answer.h"
+#include "document/current_words.h"
 #include "document/live.h"
 #include "document/symmetry_words.h"
 
@@ -38,8 +39,8 @@ static nh_stage_row row_of(const nh_analysis *r, const nh_current *f)
     nh_text_init(&meaning);
     bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry),
          follows = f->independence == NH_DEPENDENT;
-    nh_answer_meaning(r, f, rotations, &meaning);
-    const char *sure = nh_answer_proof(r, f);
+    nh_analysis_answer_meaning(r, f, rotations, &meaning);
+    const char *sure = nh_analysis_answer_proof(r, f);
     if (f->proof.all_parameters && !strncmp(sure, " for all ", 9) && r->system->parameters > most_named)
         sure = "for all parameter values";
     nh_stage_row row = {.name = without_end(r->arena, nh_text_string(&meaning), ". "),
@@ -47,8 +48,8 @@ static nh_stage_row row_of(const nh_analysis *r, const nh_current *f)
                         .from = follows ? "" : nh_arena_strdup(r->arena, nh_text_string(&symmetry)),
                         .sure = *sure == ' ' ? sure + 1 : sure,
                         .anchor = nh_arena_printf(r->arena, "q-%s", f->name),
-                        .label = without_end(r->arena, nh_answer_label(r, f), "= "),
-                        .value = nh_answer_shown(r, f),
+                        .label = without_end(r->arena, nh_current_label(r, f), "= "),
+                        .value = nh_analysis_answer_shown(r, f),
                         .proved = f->proof.proved && !(f->series && f->series->variables > 1),
                         .series = f->series != NULL,
                         .drift = f->drift.drift[NH_DRIFT_RUNS - 1]};
@@ -72,11 +73,4 @@ nh_stage *nh_analysis_stage(const nh_analysis *r, const nh_run *run)
                     .rows = r->count,
                     .row = row};
     return s;
-}
-
-void nh_analysis_stage_free(nh_stage *s)
-{
-    if (!s) return;
-    nh_time_series_free((nh_time_series *)s->series);
-    nh_live_free(s->live);
 }

@@ -6,8 +6,7 @@
 #include "document/stage.h"
 #include "search/analysis.h"
 
-/* NULL where there is no motion.  The caller frees it by nh_analysis_stage_free. */
+/* NULL where there is no motion.  nh_stage_free. */
 nh_stage *nh_analysis_stage(const nh_analysis *result, const nh_run *run);
-void nh_analysis_stage_free(nh_stage *stage);
 
 #endif

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "document/benchmark.h"
 #include "document/benchmark_internal.h"
+#include "document/screen.h"
 
 enum { most_lines = 35 }; /* colours, times dashes */
 
@@ -18,21 +19,17 @@ static bool shown(const nh_run_record *m) { return m->status <= NH_FLAGGED && is
 
 /* ---- the answer ---- */
 
-static const char *set_by(const nh_run_record *m) { return isnan(m->step) ? "tolerance" : "step"; }
-
-static double set_to(const nh_run_record *m) { return isnan(m->step) ? m->tolerance : m->step; }
-
 static void answer(nh_pen *p, const nh_benchmark *c)
 {
     const nh_run_record *best = nh_benchmark_fastest(c, 0, c->count, 1e-6, false);
     nh_pen_open(p, NH_PEN_ANSWER, best ? "found" : "undecided", NULL);
-    if (best) nh_pen_say(p, "Fastest below an error of a millionth: %s in {%s}.", best->method, best->formulation);
+    if (best) nh_pen_say(p, "Fastest with an error below a millionth: %s in {%s}.", best->method, best->formulation);
     else nh_pen_say(p, "No method came below an error of a millionth.");
     nh_pen_close(p, NH_PEN_ANSWER);
     nh_pen_words(p, "One motion, t = %.6g to %.6g, by %s in every formulation, measured on this machine.", c->begin,
                  c->end, c->methods ? "the integrators that were asked for" : "every integrator");
-    nh_pen_words(p, "Reference: {%s}; {%s} agrees to %.1g, so that smaller errors mean nothing.", c->reference,
-                 c->second, c->agreement);
+    nh_pen_words(p, "Reference: {%s}; {%s} agrees to %.1g, so that errors below that cannot be measured.",
+                 c->reference, c->second, c->agreement);
     const char *warning[NH_BENCHMARK_WARNINGS];
     for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++) nh_pen_warning(p, warning[i]);
     if (c->partial) nh_pen_warning(p, "the budget ended before every method had all its runs; --budget allows more");
@@ -41,7 +38,7 @@ static void answer(nh_pen *p, const nh_benchmark *c)
 /* The time and the error of a run; `each`: with the drift of every current. */
 static void put_run(nh_pen *p, const nh_benchmark *c, const nh_run_record *m, bool each)
 {
-    nh_pen_say(p, "%s %.3g: error %.1g", set_by(m), set_to(m), m->error);
+    nh_pen_say(p, "%s %.3g: error %.1g", nh_run_record_set_by(m), nh_run_record_set_to(m), m->error);
     for (size_t k = 0; each && k < c->currents && m->drift && isfinite(m->error); k++)
         if (!isnan(m->drift[k])) nh_pen_say(p, ", drift of <%s> %.1g", c->current[k], m->drift[k]);
     if (!each && isfinite(m->worst_drift)) nh_pen_say(p, ", drift %.1g", m->worst_drift);
@@ -51,7 +48,7 @@ static void put_run(nh_pen *p, const nh_benchmark *c, const nh_run_record *m, bo
 static void fastest(nh_pen *p, const nh_benchmark *c)
 {
     bool reduced = false;
-    nh_pen_heading(p, "The fastest below an error");
+    nh_pen_heading(p, "Fastest method for each accuracy");
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     for (size_t i = 0; i < NH_BENCHMARK_GOALS; i++) {
         char goal[24];
@@ -116,7 +113,7 @@ static void times(nh_pen *p, const nh_benchmark *c)
     nh_text_add(&heads, "method");
     for (size_t i = 0; i < NH_BENCHMARK_GOALS; i++) nh_text_addf(&heads, "|#%.0e", nh_benchmark_goal[i]);
     nh_text_add(&heads, "|others");
-    nh_pen_open(p, NH_PEN_FOLD, NULL, "Seconds to an error");
+    nh_pen_open(p, NH_PEN_FOLD, NULL, "Time to reach a given accuracy");
     nh_pen_words(p, "Seconds until the error is below the head of the column, and what happened to other "
                     "runs of the method.");
     for (size_t i = 0, next; i < c->count; i = next) {
@@ -256,7 +253,7 @@ static void plots(nh_pen *p, const nh_benchmark *c)
 static void all_runs_brief(nh_pen *p, const nh_benchmark *c)
 {
     const char *formulation = "";
-    for (size_t i = 0; i < c->count && p->style.verbose; i++) {
+    for (size_t i = 0; i < c->count; i++) {
         const nh_run_record *m = &c->item[i];
         if (strcmp(formulation, m->formulation)) {
             if (i) nh_pen_close(p, NH_PEN_FACTS);
@@ -283,7 +280,8 @@ static void all_runs(nh_pen *p, const nh_benchmark *c)
     nh_pen_table(p, "All runs", "method|formulation|set to|status|error|drift|seconds|evaluations|note");
     for (size_t i = 0; i < c->count; i++) {
         const nh_run_record *m = &c->item[i];
-        nh_pen_row(p, "%s|{%s}|%s %.3g|!%s|%.2g|%.2g|%.3g|%.10g|%s", m->method, m->formulation, set_by(m), set_to(m),
+        nh_pen_row(p, "%s|{%s}|%s %.3g|!%s|%.2g|%.2g|%.3g|%.10g|%s", m->method, m->formulation,
+                   nh_run_record_set_by(m), nh_run_record_set_to(m),
                    nh_run_record_status_name(m->status), m->error, m->worst_drift, m->seconds, (double)m->evaluations,
                    m->note ? m->note : "");
     }
@@ -353,22 +351,16 @@ static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last
     nh_free(x);
 }
 
-/* For each number of functions: the method that is tried first, those that no other one beats, and the most samples of
- * the most functions. */
 static void fits_brief(nh_pen *p, const nh_benchmark *c)
 {
-    size_t most = c->fit[c->fits - 1].functions, first = 0;
     nh_pen_table(p, "Solutions", "columns|samples|basis|route|solver|error|seconds|result");
     for (size_t i = 0; i < c->fits; i++) {
         const nh_fitted *m = &c->fit[i];
-        if (m->functions != c->fit[first].functions) first = i;
-        if (p->style.verbose || i == first || m->front || (m->functions == most && m->samples == c->fit[first].samples))
-            nh_pen_row(p, "%zu|%zu|%s|%s|%s|%.1g|%.2g|%s%s", m->columns, m->samples, m->basis, m->route, m->solver,
-                       m->error, m->seconds, nh_fitted_word(m), m->front ? " *" : "");
+        nh_pen_row(p, "%zu|%zu|%s|%s|%s|%.1g|%.2g|%s%s", m->columns, m->samples, m->basis, m->route, m->solver,
+                   m->error, m->seconds, nh_fitted_word(m), m->front ? " *" : "");
     }
     nh_pen_table_end(p);
-    nh_pen_words(p, "* accurate, and no other of as many functions is both faster and more exact%s.",
-                 p->style.verbose ? "" : "; --details shows all");
+    nh_pen_words(p, "* accurate, and no other of as many functions is both faster and more exact.");
     if (c->fits_partial) nh_pen_words(p, "There was no time for more functions; --budget allows more.");
 }
 
@@ -410,6 +402,10 @@ static void discrete(nh_pen *p, const nh_benchmark *c)
 void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_run *run, nh_pen_style style,
                         nh_text *out)
 {
+    if (nh_screen_is_wanted(style)) {
+        nh_benchmark_write_answer(c, s, style.colour, out);
+        return;
+    }
     const nh_simulation *q = c->question;
     nh_pen pen, *p = &pen;
     char sections[200];

@@ -78,7 +78,7 @@ void nh_benchmark_write_robustness(nh_pen *p, const nh_robustness *s)
                  s->tolerance, s->accuracy);
     for (size_t i = 0; i < s->maps; i++) {
         map_table(p, &s->map[i]);
-        if (p->ink->brief && p->style.verbose) put_notes(p, &s->map[i]);
+        if (p->ink->brief) put_notes(p, &s->map[i]);
     }
     if (!p->ink->brief) return; /* on a page each cell has its colour */
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);

@@ -21,10 +21,9 @@ static size_t count_special(const nh_classified *x)
     return n;
 }
 
-char *nh_classification_current(const nh_analysis *r, const nh_current *f, double shown)
+nh_ex nh_classification_formula(const nh_analysis *r, const nh_current *f)
 {
-    return nh_print_short(r->model->dag,
-                          f->has_in_velocities ? f->in_velocities : nh_chart_shown(r->model->chart, f->phi), shown);
+    return f->has_in_velocities ? f->in_velocities : nh_chart_shown(r->model->chart, f->phi);
 }
 
 const char *const nh_classification_decide = "A count with more work may decide it: `--option count_work=N`.";
@@ -72,7 +71,7 @@ void nh_classification_almost_all(const nh_classified *x, size_t degree, const n
     nh_classification_level(x, degree, out);
     nh_text_addf(out, ": %s", bounded);
     nh_classification_amount(x, n->bound, out);
-    nh_text_addf(out, "%s%s\n", x->of == NH_OF_CURRENTS ? " with the constant 1" : "",
+    nh_text_addf(out, "%s%s\n", x->of == NH_OF_CURRENTS ? " (counting the constant 1)" : "",
                  all          ? ""
                  : n->settled ? "; several orders give the same bound"
                               : ", perhaps fewer");
@@ -125,22 +124,23 @@ void nh_classification_left(const nh_classified *x, nh_text *out)
 }
 
 /* The sentence about one degree: which values are excluded. */
-static void put_excluded(const nh_classified *x, size_t degree, bool verbose, nh_text *out)
+static void put_excluded(const nh_classified *x, size_t degree, nh_text *out)
 {
     const nh_classify_row *row = &of(x)->row[degree - 1];
     bool lifted = row->lifted && row->height >= 1;
     nh_text_add(out, "  ");
     nh_classification_level(x, degree, out);
-    nh_text_add(out, row->theorem ? ": no number, real or complex," : ": no transcendental number");
-    if (lifted && !row->theorem)
-        nh_text_addf(out, ", and no rational one with numerator and denominator up to %.1e,", row->height);
-    nh_text_add(out, " has ");
+    nh_text_addf(out, ": no %s%s has ", count_special(x) ? "other " : "", x->over);
     nh_classification_beyond(x, row->number.bound, out);
-    if (!lifted)
-        nh_text_addf(out, "; up to %zu algebraic values, here or at a lower degree, are known modulo primes only",
-                     row->roots);
+    if (row->theorem) nh_text_add(out, " (proved for all numbers, real or complex)");
+    else if (lifted)
+        nh_text_addf(out, " (proved for all transcendental %s and all fractions with terms up to %.1e)", x->over,
+                     row->height);
+    else
+        nh_text_addf(out, " (proved for all transcendental %s; up to %zu algebraic values, here or at a lower degree, "
+                     "are known modulo primes only)", x->over, row->roots);
     nh_text_add(out, "\n");
-    if (!verbose || !lifted) return;
+    if (!lifted) return;
     if (row->theorem)
         nh_text_addf(
             out, "    (coefficients of special values have at most %.0f bits; others are excluded modulo %zu primes)\n",
@@ -161,26 +161,22 @@ size_t nh_classification_unlifted(const nh_classified *x)
     return most;
 }
 
-void nh_classification_excluded(const nh_classified *x, bool verbose, nh_text *out)
+void nh_classification_excluded(const nh_classified *x, nh_text *out)
 {
     const nh_classification *c = of(x);
     if (!c->rows) return;
-    nh_text_addf(out, "%s, proved:\n",
-                 nh_classification_unlifted(x) ? "Excluded"
-                 : count_special(x)            ? "No other values"
-                                               : "No special values");
     size_t theorems = 0, known = 0, primes = 0;
     for (size_t d = 1; d <= c->rows; d++) {
         const nh_classify_row *row = &c->row[d - 1];
-        put_excluded(x, d, verbose, out);
+        put_excluded(x, d, out);
         theorems += row->theorem;
         known += row->bits > 0;
         if (row->theorem_primes > primes) primes = row->theorem_primes;
     }
     if (theorems == c->rows) return;
     nh_text_add(out,
-                "  Another algebraic number can be special only if, modulo each of the primes, it has the residue of "
-                "a value that was examined, or no residue.\n");
+                "  Irrational algebraic values are almost, but not completely, ruled out: modulo each of the primes "
+                "such a number would have the residue of a value that was examined, or none.\n");
     if (known == c->rows)
         nh_text_addf(out,
                      "  With `--option theorem=%zu` the program takes enough primes to exclude all other numbers.\n",

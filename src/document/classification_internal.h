@@ -5,8 +5,8 @@
 #include "base/json.h"
 #include "document/classification.h"
 
-/* A current as text, on the heap; NULL: longer than `shown`. */
-char *nh_classification_current(const nh_analysis *result, const nh_current *current, double shown);
+/* A current as documents show it: in velocities where it can be. */
+nh_ex nh_classification_formula(const nh_analysis *result, const nh_current *current);
 
 /* ---- words ---- */
 
@@ -34,14 +34,22 @@ void nh_classification_counted(const nh_classified *classified, size_t degree, b
 
 /* What was not examined or not decided, and what is proved where there are not more integrals. */
 void nh_classification_left(const nh_classified *classified, nh_text *out);
-void nh_classification_excluded(const nh_classified *classified, bool verbose, nh_text *out);
+void nh_classification_excluded(const nh_classified *classified, nh_text *out);
 /* How many values may be special that are known modulo primes only. */
 size_t nh_classification_unlifted(const nh_classified *classified);
 /* Curves or surfaces that are degenerate or undecided. */
 void nh_classification_open_words(const nh_classified *family, size_t count, const nh_plane_curve *curve,
                                   nh_text *out);
 void nh_classification_plane_left(const nh_classified_plane *classified, nh_text *out);
-void nh_classification_plane_excluded(const nh_classified_plane *classified, bool verbose, nh_text *out);
+void nh_classification_plane_excluded(const nh_classified_plane *classified, nh_text *out);
+/* "B = 1, eps = 1/3   (on B - 1 = 0)"; in the family's arena. */
+const char *nh_classification_place(const nh_classified_plane *classified, const nh_classified_point *point);
+const char *nh_classification_space_place(const nh_classified_space *classified,
+                                          const nh_classified_space_point *point);
+
+/* classification_answer.c: the first screen; one of the three is not NULL. */
+void nh_classification_write_answer(const nh_classified *line, const nh_classified_plane *plane,
+                                    const nh_classified_space *space, bool colour, nh_text *out);
 
 /* ---- outlines: classification_outline.c ---- */
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "document/classification_internal.h"
+#include "graph/print.h"
 
 static const nh_classification *of(const nh_classified *x) { return x->classification; }
 
@@ -54,7 +55,7 @@ void nh_classification_put_currents(const nh_analysis *r, size_t count, const si
     for (size_t k = 0; r && k < count; k++) {
         const nh_current *f = nh_classified_current(r, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
-        char *text = nh_classification_current(r, f, r->options.written);
+        char *text = nh_print_short(r->model->dag, nh_classification_formula(r, f), r->options.written);
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "name", f->name);
         nh_json_put_text(item, "current", text);

@@ -2,6 +2,9 @@
 #include <string.h>
 
 #include "document/classification_internal.h"
+#include "document/current_words.h"
+#include "document/screen.h"
+#include "graph/print.h"
 
 typedef nh_classified_plane plane;
 typedef nh_pen pen;
@@ -28,8 +31,9 @@ void nh_classification_write_currents(pen *p, const nh_analysis *r, size_t count
     for (size_t k = 0; k < count; k++) {
         const nh_current *f = nh_classified_current(r, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
-        char *text = nh_classification_current(r, f, r->options.shown);
-        if (text) p->ink->equation(p->to, f->name, text);
+        nh_ex e = nh_current_signed(r, f, nh_classification_formula(r, f));
+        char *text = nh_print_short(r->model->dag, e, r->options.shown);
+        if (text) p->ink->equation(p->to, strcmp(nh_current_label(r, f), "E = ") ? f->name : "E", text);
         else nh_pen_words(p, "A longer current (option `shown`).");
         nh_free(text);
     }
@@ -54,7 +58,7 @@ void nh_classification_write_no_currents(const nh_classified *x, pen *p, const c
 }
 
 const char nh_classification_fewer[] =
-    "proved, but fewer than were counted: the others were not constructed, or hold in a region only";
+    "Proved, but fewer than were counted: the others were not constructed, or hold in a region only.";
 
 void nh_classification_write_value(const nh_classified *x, pen *p, const nh_classified_value *at, size_t first)
 {
@@ -67,7 +71,7 @@ void nh_classification_write_value(const nh_classified *x, pen *p, const nh_clas
         return;
     }
     nh_classification_write_currents(p, at->result, 0, NULL);
-    if (at->complete >= first) nh_pen_words(p, "all of them proved, and complete to degree %zu", at->complete);
+    if (at->complete >= first) nh_pen_words(p, "All proved; the list is complete up to degree %zu.", at->complete);
     else nh_pen_words(p, "%s", nh_classification_fewer);
 }
 
@@ -102,7 +106,7 @@ static void outline_line(const nh_classified *x, pen *p)
     }
     nh_pen_section(p, "excluded", "What is excluded");
     nh_classification_left(x, &text);
-    nh_classification_excluded(x, !p->ink->brief || p->style.verbose, &text);
+    nh_classification_excluded(x, &text);
     nh_classification_write_lines(p, &text);
     char words[200];
     if (c->end && x->question)
@@ -126,12 +130,12 @@ static void outline_curve(const plane *x, pen *p, size_t k, const size_t *almost
     }
     nh_classification_write_currents(p, at->along->almost_all, at->along->known, at->along->currents);
     if (at->complete)
-        nh_pen_words(p, "all of them proved for every %s, and complete to degree %zu for almost all", at->along->over,
-                     at->complete);
+        nh_pen_words(p, "All proved for every %s; for almost all the list is complete up to degree %zu.",
+                     at->along->over, at->complete);
     else nh_pen_words(p, "%s", nh_classification_fewer);
 }
 
-static const char *place_of(const plane *x, const nh_classified_point *q)
+const char *nh_classification_place(const plane *x, const nh_classified_point *q)
 {
     nh_text text;
     nh_text_init(&text);
@@ -169,13 +173,13 @@ static void outline_plane(const plane *x, pen *p)
     for (size_t k = 0; k < x->points; k++) {
         const nh_classified_point *q = &x->point[k];
         if (!k) nh_pen_section(p, "points", "More at the points");
-        nh_pen_place_card(p, place_of(x, q));
+        nh_pen_place_card(p, nh_classification_place(x, q));
         nh_classification_write_numbers(x->family, p, o->rows, q->number, q->first, q->at->exact, almost_all);
         nh_classification_write_value(x->family, p, q->at, q->first);
     }
     nh_pen_section(p, "excluded", "What is excluded");
     nh_classification_plane_left(x, &text);
-    nh_classification_plane_excluded(x, !p->ink->brief || p->style.verbose, &text);
+    nh_classification_plane_excluded(x, &text);
     nh_classification_write_lines(p, &text);
     char words[200];
     if (o->end)
@@ -194,6 +198,7 @@ static size_t count_line(const nh_classified *x)
 /* "1 curve and 2 points with more conservation laws" */
 static void answer(pen *p, const nh_classified *line, const plane *x, const nh_classified_space *y)
 {
+    const nh_classified *family = y ? y->family : x ? x->family : line;
     const char *obstacle = y ? y->space->obstacle : x ? x->plane->obstacle : line->classification->obstacle;
     size_t curves = 0, rows = y ? y->space->rows : x ? x->plane->rows : line->classification->rows;
     for (size_t k = 0; x && k < x->plane->curves; k++)
@@ -204,17 +209,17 @@ static void answer(pen *p, const nh_classified *line, const plane *x, const nh_c
     }
     if (y) nh_classification_space_answer(y, p);
     else if (x)
-        nh_pen_say(p, "%zu curve%s and %zu point%s with more conservation laws than almost all", curves,
-                     curves == 1 ? "" : "s", x->points, x->points == 1 ? "" : "s");
+        nh_pen_say(p, "%zu curve%s and %zu point%s with %s", curves, curves == 1 ? "" : "s", x->points,
+                     x->points == 1 ? "" : "s", nh_classification_more(family));
     else {
         size_t n = count_line(line), unlifted = nh_classification_unlifted(line);
         if (n) nh_pen_say(p, "%zu value%s of ", n, n == 1 ? "" : "s");
         else nh_pen_say(p, unlifted ? "No known value of " : "No value of ");
         nh_pen_name(p, line->over);
-        nh_pen_say(p, " with %s", nh_classification_more(line));
+        nh_pen_say(p, n > 1 ? " have %s" : " has %s", nh_classification_more(line));
     }
     if (line && line->question) nh_pen_say(p, ".");
-    else nh_pen_say(p, ", polynomial in the velocities up to degree %zu.", rows);
+    else nh_pen_say(p, " (searched: polynomials in the velocities up to degree %zu).", rows);
     size_t unlifted = line && !obstacle && !x && !y ? nh_classification_unlifted(line) : 0;
     if (unlifted)
         nh_pen_say(p, " Up to %zu algebraic value%s, known modulo primes only, may have more.", unlifted,
@@ -224,6 +229,10 @@ static void answer(pen *p, const nh_classified *line, const plane *x, const nh_c
 void nh_classification_write(const nh_classified *line, const plane *x, const nh_classified_space *y, const nh_run *run,
                              nh_pen_style style, nh_text *out)
 {
+    if (nh_screen_is_wanted(style)) {
+        nh_classification_write_answer(line, x, y, style.colour, out);
+        return;
+    }
     static const char over_one[] = "almost|For almost all values|excluded|What is "
         "excluded|system|System|words|Words|repeat|Repeat it";
     const nh_classified *family = y ? y->family : x ? x->family : line;

@@ -66,7 +66,7 @@ void nh_classification_plane_left(const plane *x, nh_text *out)
                          nh_classified_values(x->family, x->over[1], &o->line[k].across));
 }
 
-void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out)
+void nh_classification_plane_excluded(const plane *x, nh_text *out)
 {
     const nh_plane *o = x->plane;
     bool any = x->points > 0;
@@ -86,7 +86,7 @@ void nh_classification_plane_excluded(const plane *x, bool verbose, nh_text *out
         if (row->swept)
             nh_text_addf(out, "    (by %zu lines of %s modulo %" PRIu64 ", and those of the points)\n", row->swept,
                          x->over[1], row->prime[0]);
-        else if (verbose) {
+        else {
             nh_text_addf(out, "    (%zu unknowns, order %zu, determinants of size %zu, modulo", row->unknowns,
                          row->number.order, row->size);
             for (size_t i = 0; i < row->primes; i++) nh_text_addf(out, "%s %" PRIu64, i ? "," : "", row->prime[i]);

@@ -16,8 +16,8 @@ void nh_classification_space_answer(const space *x, pen *p)
 {
     size_t surfaces = 0;
     for (size_t k = 0; k < x->space->surfaces; k++) surfaces += special(&x->space->surface[k]);
-    nh_pen_say(p, "%zu surface%s, %zu curve%s and %zu point%s with more conservation laws than almost all", surfaces,
-               surfaces == 1 ? "" : "s", x->curves, x->curves == 1 ? "" : "s", x->points, x->points == 1 ? "" : "s");
+    nh_pen_say(p, "%zu surface%s, %zu curve%s and %zu point%s with %s", surfaces, surfaces == 1 ? "" : "s", x->curves,
+               x->curves == 1 ? "" : "s", x->points, x->points == 1 ? "" : "s", nh_classification_more(x->family));
 }
 
 static void put_along(pen *p, const nh_classified *along, size_t complete)
@@ -25,10 +25,10 @@ static void put_along(pen *p, const nh_classified *along, size_t complete)
     nh_classification_write_currents(p, along->almost_all, along->known, along->currents);
     if (!complete) nh_pen_words(p, "%s", nh_classification_fewer);
     else if (along->second)
-        nh_pen_words(p, "all of them proved for every %s and %s, and complete to degree %zu for almost all",
+        nh_pen_words(p, "All proved for every %s and %s; for almost all the list is complete up to degree %zu.",
                      along->second,
                      along->over, complete);
-    else nh_pen_words(p, "all of them proved for every %s, and complete to degree %zu for almost all", along->over,
+    else nh_pen_words(p, "All proved for every %s; for almost all the list is complete up to degree %zu.", along->over,
                       complete);
 }
 
@@ -67,7 +67,7 @@ static void put_curves(const space *x, pen *p, const size_t *almost_all)
     }
 }
 
-static const char *place_of(const space *x, const nh_classified_space_point *q)
+const char *nh_classification_space_place(const space *x, const nh_classified_space_point *q)
 {
     nh_text text;
     nh_text_init(&text);
@@ -84,7 +84,7 @@ static void put_points(const space *x, pen *p, const size_t *almost_all)
     for (size_t k = 0; k < x->points; k++) {
         const nh_classified_point *at = x->point[k].at;
         if (!k) nh_pen_section(p, "points", "More at the points");
-        nh_pen_place_card(p, place_of(x, &x->point[k]));
+        nh_pen_place_card(p, nh_classification_space_place(x, &x->point[k]));
         nh_classification_write_numbers(x->family, p, x->space->rows, at->number, at->first, at->at->exact,
                                         almost_all);
         nh_classification_write_value(x->family, p, at->at, at->first);
@@ -123,7 +123,7 @@ static void put_left(const space *x, nh_text *out)
     }
 }
 
-static void put_excluded(const space *x, size_t degree, bool verbose, nh_text *out)
+static void put_excluded(const space *x, size_t degree, nh_text *out)
 {
     const nh_plane_row *row = &x->space->row[degree - 1];
     nh_text_addf(out, "  degree %zu: ", degree);
@@ -132,7 +132,6 @@ static void put_excluded(const space *x, size_t degree, bool verbose, nh_text *o
         nh_text_addf(out, "in %zu planes of constant %s, no other pair of rational numbers %s, %s with numerators "
                      "and denominators up to %.1e has more than %zu\n",
                      row->planes, x->over[2], x->over[1], x->over[0], row->height, row->number.bound);
-    if (!verbose) return;
     nh_text_addf(out, "    (%zu unknowns, order %zu, determinants of size %zu, surfaces from %zu values of %s, "
                  "modulo", row->unknowns,
                  row->number.order, row->size, row->sections, x->over[2]);
@@ -140,12 +139,12 @@ static void put_excluded(const space *x, size_t degree, bool verbose, nh_text *o
     nh_text_add(out, ")\n");
 }
 
-static void put_all_excluded(const space *x, bool verbose, nh_text *out)
+static void put_all_excluded(const space *x, nh_text *out)
 {
     const nh_space *o = x->space;
     size_t looked = 0;
     if (o->rows) nh_text_add(out, "Elsewhere:\n");
-    for (size_t d = 1; d <= o->rows; d++) put_excluded(x, d, verbose, out);
+    for (size_t d = 1; d <= o->rows; d++) put_excluded(x, d, out);
     if (!o->rows) return;
     nh_text_addf(out, "  These planes are all with numerator and denominator of %s up to %.0f that were not "
                  "classified as a whole (option `planes`).\n",
@@ -185,7 +184,7 @@ void nh_classification_outline_space(const space *x, pen *p)
     put_points(x, p, almost_all);
     nh_pen_section(p, "excluded", "What is excluded");
     put_left(x, &text);
-    put_all_excluded(x, !p->ink->brief || p->style.verbose, &text);
+    put_all_excluded(x, &text);
     nh_classification_write_lines(p, &text);
     if (o->end) nh_pen_words(p, "Degree %zu was not reached: %s.", o->rows + 1, nh_classification_end(o->end, words,
         sizeof words));

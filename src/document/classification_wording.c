@@ -8,15 +8,17 @@ static const struct {
     const char *where;       /* heading of the special values, and of sentences about them */
     const char *more;        /* "more ..." */
 } WORDS[NH_LINEAR_QUESTIONS] = {
-    [NH_OF_CURRENTS] = {"integrals polynomial in the velocities", "More for", "more conservation laws than almost all"},
-    [NH_OF_MEASURE] = {"invariant measures exp(sigma(q)) dq dw", "An invariant measure for", "an invariant measure"},
+    [NH_OF_CURRENTS] = {"integrals polynomial in the velocities", "Special values",
+                        "more conserved quantities than the others"},
+    [NH_OF_MEASURE] = {"invariant measures exp(sigma(q)) dq dw", "Values with an invariant measure",
+                       "an invariant measure (a preserved volume)"},
     [NH_OF_HAMILTONIZATION] =
         {"conformal factors on the shape space, by which the reduced equations become Hamiltonian",
-         "A conformal factor for", "a conformal factor"},
-    [NH_OF_SYMMETRIES] = {"infinitesimal symmetries of Lagrangian and constraints", "More symmetries for",
-                          "more symmetries than almost all"},
-    [NH_OF_INTEGRABILITY] = {"directions that brackets of the allowed motions have", "Fewer directions for",
-                             "fewer directions than almost all"},
+         "Values with a conformal factor", "a conformal factor"},
+    [NH_OF_SYMMETRIES] = {"infinitesimal symmetries of Lagrangian and constraints", "Values with more symmetries",
+                          "more symmetries than the others"},
+    [NH_OF_INTEGRABILITY] = {"directions that brackets of the allowed motions have", "Values with fewer directions",
+                             "fewer directions of motion than the others"},
 };
 
 const char *nh_classification_subject(const nh_classified *x) { return WORDS[x->of].subject; }

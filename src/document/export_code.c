@@ -1,7 +1,7 @@
 /* export_code: the body of a function in any language: names, then the unknowns, then the results. */
 #include <string.h>
 
-#include "document/export_internal.h"
+#include "document/export_code.h"
 
 const char *const *nh_export_members(const nh_export *x, const nh_source_language *language, nh_arena *arena)
 {

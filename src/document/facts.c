@@ -118,11 +118,12 @@ static bool some_fixed(const nh_model *o, const nh_proof *p)
 
 const char *nh_facts_holds(const nh_model *o, const nh_proof *p, bool names)
 {
+    enum { most_named = 6 };
     const nh_system *s = o->system;
     if (!s->parameters) return "";
     if (some_fixed(o, p)) return nh_arena_printf(o->arena, " for %s", nh_fixed_text(o, p->fixed));
     if (!p->all_parameters) return " for these parameter values only";
-    if (!names) return " for all parameter values";
+    if (!names || s->parameters > most_named) return " for all parameter values";
     nh_text text;
     nh_text_init(&text);
     for (size_t i = 0; i < s->parameters; i++)
@@ -186,15 +187,6 @@ const char *nh_facts_which_branch(const nh_analysis *r, const nh_current *f)
 }
 
 /* ---- the answer ---- */
-
-const char *nh_facts_nothing(const nh_analysis *r)
-{
-    if (r->verdict == NH_NONE) return "No current in this ansatz";
-    if (r->pieces) return "Undecided: no current of all motions so far";
-    if (nh_analysis_by_trial(r)) return "Undecided: no value of the unknowns that was tried gives a current";
-    return r->search == NH_SEARCH_CUT || nh_analysis_left_out(r) ? "Undecided: no current so far"
-                                                                 : "Undecided: no candidate has a certificate";
-}
 
 const char *nh_facts_between_walls(const nh_analysis *r)
 {

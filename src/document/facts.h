@@ -49,8 +49,6 @@ const char *nh_facts_which_branch(const nh_analysis *result, const nh_current *f
 /* "4 independent currents on each side of x = 0, where the motion has an impulse": only where there is no other
  * current. */
 const char *nh_facts_between_walls(const nh_analysis *result);
-/* The sentences when no current was found. */
-const char *nh_facts_nothing(const nh_analysis *result);
 /* The ansatz is that of the analysis file: nothing else was tried. */
 bool nh_facts_given(const nh_analysis *result);
 /* How the search ended, in whole sentences. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "document/export_internal.h"
+#include "document/export_code.h"
 #include "document/formula.h"
 #include "document/html_internal.h"
 #include "document/live.h"
@@ -177,8 +177,7 @@ static void controls(nh_html_writer *w, const nh_stage *s, bool live)
     }
     nh_html_add(w, "<div class=\"under\">");
     if (live)
-        nh_html_add(w, "<label>tolerance <select id=\"tol\"><option>1e-4</option><option>1e-6</option><option "
-                       "selected=\"selected\">1e-9</option><option>1e-11</option></select></label>");
+        nh_html_add(w, "<label>tolerance <select id=\"tol\"></select></label>");
     nh_html_add(w, "<span id=\"told\">");
     if (!live) put_why(w, s->live);
     nh_html_add(w, "</span><button class=\"lnk\" id=\"csv\" type=\"button\">CSV</button><button class=\"lnk\" "
@@ -211,9 +210,12 @@ static void words(nh_html_writer *w, const char *text)
     nh_text_clear(&token);
 }
 
-static void equals(nh_html_writer *w, const char *label, nh_ex e)
+/* The formulas of a stage are those of its own model, whose graph need not be that of the page's other formulas. */
+static nh_dag *graph_of(const nh_stage *s) { return s->live->model->dag; }
+
+static void equals(nh_html_writer *w, const nh_stage *s, const char *label, nh_ex e)
 {
-    char *text = nh_print_string(w->dag, e);
+    char *text = nh_print_string(graph_of(s), e);
     if (*label) nh_html_source(w, label), nh_html_add(w, " <math><mo>=</mo></math> ");
     nh_html_source(w, text);
     nh_free(text);
@@ -240,14 +242,14 @@ static void row(nh_html_writer *w, const nh_stage *s, const nh_formula_list *lis
                  "<tr data-quantity=\"%zu\" style=\"--k:var(--c%zu)\"><th scope=\"row\"><span class=\"nm\"><span "
                  "class=\"key\"></span><span>",
                  k, 1 + k % colours);
-    if (*r->anchor) nh_text_addf(w->out, "<a href=\"#%s\">", r->anchor);
+    if (*r->anchor) nh_text_addf(w->out, "<a href=\"#%s\" aria-label=\"to the details\">", r->anchor);
     if (*r->name) words(w, r->name);
     else nh_html_source(w, s->live->quantity[k].name);
     nh_html_add(w, *r->anchor ? "</a>" : "");
     if (*r->doc) nh_html_add(w, " <span class=\"doc\">"), nh_html_prose(w, r->doc), nh_html_add(w, "</span>");
     nh_html_add(w, "</span></span><div class=\"f\">");
     if (r->series || !list->short_enough[k]) nh_html_add(w, "<em>a long formula: see below</em>");
-    else equals(w, r->label, list->formula[k]);
+    else equals(w, s, r->label, list->formula[k]);
     nh_html_add(w, "</div>");
     if (*r->from) nh_html_add(w, "<span class=\"from\">from "), words(w, r->from), nh_html_add(w, "</span>");
     nh_html_add(w, "</th>");
@@ -264,8 +266,8 @@ static void quantities(nh_html_writer *w, const nh_stage *s)
     nh_ex *e = nh_alloc_array(s->rows, sizeof *e);
     size_t names = 0;
     bool any = false;
-    for (size_t k = 0; k < s->rows; k++) e[k] = s->row[k].series ? nh_int(w->dag, 0) : s->row[k].value;
-    nh_formula_list list = nh_formula_list_make(w->dag, s->rows, e, w->shown, &names);
+    for (size_t k = 0; k < s->rows; k++) e[k] = s->row[k].series ? nh_int(graph_of(s), 0) : s->row[k].value;
+    nh_formula_list list = nh_formula_list_make(graph_of(s), s->rows, e, w->shown, &names);
     nh_html_add(w, "<section aria-label=\"conserved quantities\">\n<table class=\"q\"><thead><tr><th "
                    "scope=\"col\">Conserved quantity, and the symmetry that it comes from</th><th scope=\"col\" "
                    "class=\"c2\">how sure</th><th scope=\"col\" class=\"now c3\">now, and drift</th></tr></thead>"
@@ -276,7 +278,7 @@ static void quantities(nh_html_writer *w, const nh_stage *s)
         if (!list.beside[k]) continue;
         nh_html_add(w, any ? ", " : "<p class=\"parts\">");
         any = true;
-        equals(w, list.part[k].name, list.part[k].value);
+        equals(w, s, list.part[k].name, list.part[k].value);
     }
     nh_html_add(w, any ? "</p>\n" : "");
     nh_html_add(w, "<p class=\"hint\">Drift: the largest change along the motion, relative to the terms; the bar runs "

@@ -6,7 +6,7 @@
 #include "document/html_internal.h"
 #include "document/perspective.h"
 
-enum { most_curves = 7, page_points = 140 };
+enum { most_curves = 7, page_points = 80 };
 
 /* ---- plots over time ---- */
 
@@ -206,7 +206,8 @@ static void still(nh_html_writer *w, const nh_time_series *c)
                     .description = "The bodies at the end of the motion in perspective, with their paths",
                     .view = view,
                     .at = c->count - 1};
-    if (view) nh_html_figure(w, &plot, "The bodies at the end of the motion, with their paths; hidden sides are faint.");
+    if (view)
+        nh_html_figure(w, &plot, "The bodies at the end of the motion, with their paths; hidden sides are faint.");
     nh_view_free(view);
 }
 
@@ -226,5 +227,6 @@ void nh_html_plots(nh_html_writer *w, const nh_time_series *c)
     lines(w, c, NH_TRACK_MULTIPLIER, 0, c->lines, "Chetaev multipliers", "multiplier",
           c->model->k == 1 ? "The Chetaev multiplier over time."
                            : "Chetaev multipliers over time, in the order of the constraints.");
-    if (!c->drifts_elsewhere) constancy(w, c);
+    bool live = w->stage && !w->stage->live->why; /* such a page draws the drift */
+    if (!c->drifts_elsewhere && !live) constancy(w, c);
 }

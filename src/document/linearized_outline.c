@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "document/linearized.h"
 #include "document/pen.h"
+#include "document/screen.h"
 
 enum { digits = 14 };
 
@@ -25,28 +26,41 @@ static void names(nh_pen *p, const nh_linearized *x, const nh_linear_equations *
     }
 }
 
-static void put_values(nh_pen *p, const nh_linearized *x, const nh_linear_equations *e)
+/* The index of the next of the coordinates and velocities that is not 0; 2m: there is none. */
+static size_t next_value(const nh_linear_equations *e, size_t i)
 {
-    const nh_system *s = x->system;
-    const char *between = "";
-    for (size_t i = 0; i < 2 * e->m; i++) {
-        double value = i < e->m ? e->q[i] : e->v[i - e->m];
-        if (value == 0) continue;
-        nh_ex symbol = i < e->m ? s->coordinate[i].q : s->coordinate[i - e->m].v;
-        nh_pen_say(p, "%s<%s> = %s", between, nh_name_of(s->dag, symbol), digits_of(x, value));
-        between = ", ";
-    }
-    nh_pen_say(p, *between ? "; all else is 0" : "at rest, all coordinates 0");
+    while (i < 2 * e->m && (i < e->m ? e->q[i] : e->v[i - e->m]) == 0) i++;
+    return i;
 }
 
-static void steadiness(nh_pen *p, const nh_linear_equations *e)
+static const char *name_of_value(const nh_linearized *x, const nh_linear_equations *e, size_t i)
+{
+    const nh_coordinate *c = &x->system->coordinate[i % e->m];
+    return nh_name_of(x->system->dag, i < e->m ? c->q : c->v);
+}
+
+static const char *value_of(const nh_linearized *x, const nh_linear_equations *e, size_t i)
+{
+    return digits_of(x, i < e->m ? e->q[i] : e->v[i - e->m]);
+}
+
+static const char at_rest[] = "at rest, all coordinates 0", all_else[] = "; all else is 0";
+
+static void put_values(nh_pen *p, const nh_linearized *x, const nh_linear_equations *e)
+{
+    size_t first = next_value(e, 0);
+    for (size_t i = first; i < 2 * e->m; i = next_value(e, i + 1))
+        nh_pen_say(p, "%s<%s> = %s", i == first ? "" : ", ", name_of_value(x, e, i), value_of(x, e, i));
+    nh_pen_say(p, "%s", first < 2 * e->m ? all_else : at_rest);
+}
+
+static const char *steadiness(const nh_linearized *x, const nh_linear_equations *e)
 {
     if (e->residual > 0)
-        nh_pen_say(p, "no: what the matrix depends on changes, at the rate %.6g at most", e->residual);
-    else if (e->changes)
-        nh_pen_say(p, "the rates vanish, but the linear equations change with time");
-    else if (e->moves) nh_pen_say(p, "yes: what moves does not occur in the linear equations");
-    else nh_pen_say(p, "yes: an equilibrium");
+        return nh_arena_printf(x->arena, "no: what the matrix depends on changes, at the rate %.6g at most",
+                               e->residual);
+    if (e->changes) return "the rates vanish, but the linear equations change with time";
+    return e->moves ? "yes: what moves does not occur in the linear equations" : "yes: an equilibrium";
 }
 
 static void state(nh_pen *p, const nh_linearized *x, const nh_linear_equations *e)
@@ -56,9 +70,7 @@ static void state(nh_pen *p, const nh_linearized *x, const nh_linear_equations *
     nh_pen_fact_begin(p, "State");
     put_values(p, x, e);
     nh_pen_close(p, NH_PEN_FACT);
-    nh_pen_fact_begin(p, "Steady");
-    steadiness(p, e);
-    nh_pen_close(p, NH_PEN_FACT);
+    nh_pen_fact(p, "Steady", "%s", steadiness(x, e));
     if (e->size < e->s + e->n) {
         nh_pen_fact_begin(p, "Left out");
         names(p, x, e, false);
@@ -179,8 +191,98 @@ static void answer(nh_pen *p, const nh_linearized *x)
     nh_pen_close(p, NH_PEN_ANSWER);
 }
 
+/* ---- the first screen ---- */
+
+enum { most_shown = 20 }; /* eigenvalues, or changes */
+
+/* What a small deviation with this eigenvalue does. */
+static void put_meaning(const nh_eigenvalue *z, nh_text *out)
+{
+    bool zero = fabs(z->re) <= z->error, real = fabs(z->im) <= z->error;
+    if (zero && real) nh_text_add(out, "no exponential growth or decay");
+    if (!real) nh_text_addf(out, "period %.5g", 2 * acos(-1) / fabs(z->im));
+    if (!zero) nh_text_addf(out, "%s%s in %.5g", real ? "" : ", ", z->re > 0 ? "grows by e" : "decays to 1/e",
+                            1 / fabs(z->re));
+}
+
+/* Conjugate ones are one line. */
+static void put_eigenvalues(const nh_linear_equations *e, nh_text *out)
+{
+    size_t told = 0, left = 0;
+    nh_text_add(out, e->eigenvalues ? "\nEigenvalues\n" : "");
+    for (size_t i = 0; i < e->eigenvalues; i++) {
+        const nh_eigenvalue *z = &e->eigenvalue[i];
+        bool real = fabs(z->im) <= z->error;
+        if (!real && z->im < 0) continue;
+        if (told++ >= most_shown) {
+            left++;
+            continue;
+        }
+        nh_text value;
+        nh_text_init(&value);
+        nh_text_addf(&value, "%.10g", fabs(z->re) <= z->error ? 0 : z->re);
+        if (!real) nh_text_addf(&value, " +- %.10g i", z->im);
+        nh_text_addf(out, "  %-31s ", nh_text_string(&value));
+        if (e->residual == 0 && !e->changes) put_meaning(z, out);
+        if (z->times > 1) nh_text_addf(out, " (%zu times)", z->times);
+        nh_text_add(out, "\n");
+        nh_text_clear(&value);
+    }
+    if (left) nh_text_addf(out, "  %zu more (--details)\n", left);
+}
+
+static void put_changes(const nh_linearized *x, nh_text *out)
+{
+    for (size_t i = 0; i < x->changes && i < most_shown; i++) {
+        const nh_linear_change *c = &x->change[i];
+        nh_text_addf(out, "%s  %s = %.10g: %s below, %s above\n", i ? "" : "\n", x->over,
+                     c->low + (c->high - c->low) / 2, nh_linearized_word(c->before), nh_linearized_word(c->after));
+    }
+    if (x->changes > most_shown) nh_text_addf(out, "  %zu more (--details)\n", x->changes - most_shown);
+    size_t open = 0;
+    for (size_t i = 0; i < x->rows; i++) open += !x->row[i].equations;
+    if (open) nh_text_addf(out, "  at %zu of %zu values there is no answer (--details)\n", open, x->rows);
+}
+
+static void first_screen(const nh_linearized *x, bool colour, nh_text *out)
+{
+    const nh_linear_equations *e = x->row[0].equations;
+    const char *const open[3] = {x->over};
+    nh_text words;
+    nh_text_init(&words);
+    bool same = true;
+    for (size_t i = 0; i < x->rows; i++) same &= x->row[i].equations && x->row[i].verdict == x->row[0].verdict;
+    if (x->over && !x->changes && same)
+        nh_text_addf(&words, "The state is %s at all %zu values of %s", nh_linearized_word(x->row[0].verdict), x->rows,
+                     x->over);
+    else if (x->over)
+        nh_text_addf(&words, "The stability changes at %zu value%s of %s", x->changes, x->changes == 1 ? "" : "s",
+                     x->over);
+    else nh_text_add(&words, nh_linearized_sentence(x->row[0].verdict));
+    if (x->over)
+        nh_text_addf(&words, " between %s and %s.", x->row[0].value.text, x->row[x->rows - 1].value.text);
+    nh_screen_begin(out, colour, x->system, open, &words);
+    if (x->over) {
+        put_changes(x, out);
+    } else {
+        size_t first = next_value(e, 0);
+        nh_text_add(&words, "State: ");
+        for (size_t i = first; i < 2 * e->m; i = next_value(e, i + 1))
+            nh_text_addf(&words, "%s%s = %s", i == first ? "" : ", ", name_of_value(x, e, i), value_of(x, e, i));
+        nh_text_addf(&words, "%s. Steady: %s.", first < 2 * e->m ? all_else : at_rest, steadiness(x, e));
+        nh_screen_say(out, 0, &words);
+        put_eigenvalues(e, out);
+    }
+    nh_screen_more(out, x->over ? "the eigenvalues at each value" : "the linear equations, and the errors",
+                   "--svg FILE  the eigenvalues as a picture");
+}
+
 void nh_linearized_write(const nh_linearized *x, const nh_run *run, nh_pen_style style, nh_text *out)
 {
+    if (nh_screen_is_wanted(style)) {
+        first_screen(x, style.colour, out);
+        return;
+    }
     nh_pen pen, *p = &pen;
     nh_pen_subject subject = {.system = x->system, .dag = x->system->dag, .shown = run->shown};
     nh_pen_begin(p, style, &subject, "linear equations of motion", out);

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "document/export_internal.h"
+#include "document/export_code.h"
 #include "document/page.h"
 #include "integrals/fixed.h"
 

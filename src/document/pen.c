@@ -226,9 +226,9 @@ void nh_pen_heading(nh_pen *p, const char *title)
     nh_pen_close(p, NH_PEN_HEADING);
 }
 
-void nh_pen_name_heading(nh_pen *p, const char *name)
+void nh_pen_name_heading(nh_pen *p, const char *id, const char *name)
 {
-    nh_pen_open(p, NH_PEN_NAME, name, NULL);
+    nh_pen_open(p, NH_PEN_NAME, id, NULL);
     p->ink->source(p->to, name);
     nh_pen_close(p, NH_PEN_NAME);
 }

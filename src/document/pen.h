@@ -64,7 +64,7 @@ typedef struct {
     void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
     void (*table_end)(void *to);
     void (*plot)(void *to, nh_plot *plot, const char *caption);
-    void (*series)(void *to, const nh_time_series *series); /* a motion as plots over time; on pages the stage has them */
+    void (*series)(void *to, const nh_time_series *series); /* a motion as plots over time; pages have a stage */
     void (*stage)(void *to, const nh_stage *stage);         /* the motion at the top of a page; NULL: no page */
     void (*symmetry)(void *to, const nh_symmetry *symmetry); /* the symmetry in words: its case, its bracket */
     void (*glossary)(void *to, const char *words);   /* the meaning of these words; on pages only */
@@ -152,7 +152,8 @@ void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(prin
 /* a cell of an open row */
 void nh_pen_cell(nh_pen *pen, nh_pen_part part, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void nh_pen_heading(nh_pen *pen, const char *title);             /* a heading within a section: it ends the card */
-void nh_pen_name_heading(nh_pen *pen, const char *name);         /* a heading within a card */
+/* a heading within a card; `id`: its place on a page, or NULL */
+void nh_pen_name_heading(nh_pen *pen, const char *id, const char *name);
 void nh_pen_code(nh_pen *pen, const char *text);
 void nh_pen_warning(nh_pen *pen, const char *text);
 void nh_pen_plot(nh_pen *pen, nh_plot *plot, const char *caption);

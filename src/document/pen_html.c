@@ -37,7 +37,7 @@ static void links(void *to, const char *sections) { nh_html_links(to, sections);
 static void open(void *to, nh_pen_part part, const char *id, const char *title)
 {
     if (part == NH_PEN_CARD || part == NH_PEN_SECTION) ((nh_html_writer *)to)->names = 0;
-    nh_html_add(to, part == NH_PEN_NAME && id ? "<h3 id=\"q-" : markup[part].open); /* where the table above leads */
+    nh_html_add(to, part == NH_PEN_NAME && id ? "<h3 id=\"" : markup[part].open);
     if (id) nh_html_text(to, id);
     /* shown when the pointer rests on it */
     if (part == NH_PEN_KIND && title && *title) nh_html_add(to, "\" title=\""), nh_html_text(to, title);

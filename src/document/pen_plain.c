@@ -8,6 +8,7 @@
 #include "document/formula.h"
 #include "document/notation.h"
 #include "document/pen.h"
+#include "document/screen.h"
 
 static const struct {
     const char *open, *close; /* text before the title, or the part; at its end */
@@ -38,34 +39,16 @@ static void bold(nh_plain_writer *w, const char *text)
     nh_text_addf(w->out, w->colour ? "\033[1m%s\033[0m" : "%s", text);
 }
 
-/* The title with the values of the parameters, none of which is split between lines. */
 static void begin(void *to, const char *what)
 {
     nh_plain_writer *w = to;
-    const nh_system *s = w->of.system;
     (void)what;
     w->folded = w->out;
     w->out = &w->text;
     nh_text_init(w->out);
-    bold(w, s->title);
-    if (!s->parameters) nh_text_add(w->out, "   no parameters");
-    size_t column = nh_text_width(s->title);
-    bool first = true;
-    for (size_t i = 0; i < s->parameters; i++, first = false) {
-        char one[120];
-        if (nh_pen_is_open(&w->of, s->parameter[i].name)) continue;
-        snprintf(one, sizeof one, "%s = %.6g", s->parameter[i].name, s->parameter[i].value);
-        size_t wide = nh_text_width(one) + (first ? strlen("   with ") : 2);
-        if (column + wide >= line_width) {
-            words(w, first ? "\n    with " : ",\n    ");
-            column = 2;
-        } else {
-            words(w, first ? "   with " : ", ");
-        }
-        words(w, one);
-        column += wide;
-    }
-    nh_text_add(w->out, "\n");
+    nh_text none;
+    nh_text_init(&none);
+    nh_screen_begin(w->out, w->colour, w->of.system, w->of.open, &none);
 }
 
 static void links(void *to, const char *sections) { (void)to, (void)sections; }

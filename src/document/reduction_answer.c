@@ -54,7 +54,7 @@ static void put_certainty(const nh_reduction *r, const nh_group *g, nh_text *out
                      g->jets->exact ? "" : ", by numbers");
 }
 
-static void group(const nh_reduction *r, nh_text *out)
+static void group(const nh_reduction *r, bool colour, nh_text *out)
 {
     const nh_group *g = r->all ? r->all : r->group;
     size_t dimension = g->action.d + g->missing;
@@ -65,12 +65,12 @@ static void group(const nh_reduction *r, nh_text *out)
     if (!dimension) {
         nh_text_add(&words, "No symmetry of kinetic energy, potential and constraints together was found. ");
         if (!g->jets) nh_text_addf(&words, "They could not be counted: %s.", nh_reduction_not_counted(r->kinetic));
-        nh_screen_say(out, 0, &words);
+        nh_screen_begin(out, colour, r->system, NULL, &words);
         return;
     }
     nh_text_addf(&words, "The %s %s%s, of dimension %zu%s.", g->given ? "given group is" : "symmetries form the group",
                  g->name, g->local && !g->given ? " (locally)" : "", dimension, nh_reduction_globally(r, g));
-    nh_screen_say(out, 0, &words);
+    nh_screen_begin(out, colour, r->system, NULL, &words);
     if (g->action.d) {
         nh_text_init(&words);
         put_fields(&g->action, &words);
@@ -109,16 +109,12 @@ static void momenta(const nh_reduction *r, bool colour, nh_text *out)
     nh_text_add(out, "\nConserved\n");
     for (size_t i = 0; i < r->momenta.count; i++) {
         const nh_momentum *m = &r->momenta.momentum[i];
-        nh_text block, words;
-        nh_text_init(&block);
+        nh_text words;
         nh_text_init(&words);
-        nh_screen_equation(nh_reduction_momentum_name(r, m), r->kinetic->dag, m->value, &block);
-        if (nh_screen_count(nh_text_string(&block)) > most_lines) {
-            nh_text_clear(&block);
-            nh_text_addf(&block, "  %s: a long formula (--details)\n", nh_reduction_momentum_name(r, m));
-        }
-        nh_screen_formula(out, colour, nh_text_string(&block));
-        nh_text_clear(&block);
+        char *value = nh_print_string(r->kinetic->dag, m->value);
+        nh_screen_put(out, colour, 2, nh_arena_printf(r->arena, "%s = ", nh_reduction_momentum_name(r, m)), value,
+                      most_lines, NULL);
+        nh_free(value);
         nh_text_addf(&words, "%s ", nh_reduction_momentum_kind(m));
         put_field(r->kinetic, m->field, &words);
         nh_text_addf(&words, "; %s%s%s.", m->proof.proved ? "proved" : "to rounding",
@@ -145,7 +141,8 @@ static void check(const nh_reduction *r, nh_text *out)
     if (printed >= 0)
         nh_text_addf(&words, "The equations as printed agree with the true accelerations to %.2g. ", printed);
     if (apart >= 0)
-        nh_text_addf(&words, "Put together again, the reduced motions differ from the full one by %.2g up to t = %.4g. ",
+        nh_text_addf(&words,
+                     "Put together again, the reduced motions differ from the full one by %.2g up to t = %.4g. ",
                      apart, reached);
     if (energy >= 0) nh_text_addf(&words, "The energy changes by %.2g.", energy);
     if (words.length) nh_text_add(out, "\n");
@@ -154,8 +151,7 @@ static void check(const nh_reduction *r, nh_text *out)
 
 void nh_reduction_write_answer(const nh_reduction *r, bool colour, nh_text *out)
 {
-    nh_screen_title(r->system, colour, out);
-    group(r, out);
+    group(r, colour, out);
     stages(r, out);
     momenta(r, colour, out);
     check(r, out);
@@ -164,6 +160,6 @@ void nh_reduction_write_answer(const nh_reduction *r, bool colour, nh_text *out)
     for (size_t i = 0; i < r->unused_count; i++)
         nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Not used: %s (--details says why).", r->unused[i].what),
                            out);
-    nh_text_add(out, "\nMore: --details   the reduced equations, brackets, conditions, measures\n"
-                     "      --to c      the reduced equations as code (python, sympy, matlab, latex)\n");
+    nh_screen_more(out, "the reduced equations, brackets, conditions, measures",
+                   "--to c      the reduced equations as code (python, sympy, matlab, latex)");
 }

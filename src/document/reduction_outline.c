@@ -4,8 +4,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "document/simulation.h"
 #include "document/facts.h"
 #include "document/reduction_answer.h"
+#include "document/screen.h"
 #include "document/reduction_internal.h"
 #include "document/reduction_sheet.h"
 
@@ -319,7 +321,7 @@ static void answer(nh_pen *p, const nh_reduction *r)
 
 void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style style, nh_text *out)
 {
-    if (style.form == NH_PEN_TEXT && !style.verbose && !(r->stages && r->stage[0].theory)) {
+    if (nh_screen_is_wanted(style) && !(r->stages && r->stage[0].theory)) {
         nh_reduction_write_answer(r, style.colour, out);
         return;
     }
@@ -328,6 +330,8 @@ void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style s
         .system = r->system, .dag = r->kinetic->dag, .shown = run ? run->shown : r->options.shown};
     nh_pen_begin(p, style, &subject, "reduction by symmetry", out);
     answer(p, r);
+    nh_stage *motion = p->ink->stage && r->motion && run ? nh_simulation_stage(r->motion, run) : NULL;
+    if (motion) p->ink->stage(p->to, motion);
     p->ink->links(
         p->to, has_momenta(r)
                    ? "group|Group|stages|Reduced equations|momenta|Momenta|system|System|words|Words|repeat|Repeat it"
@@ -346,4 +350,5 @@ void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style s
     nh_pen_system(p, NULL, NULL);
     nh_pen_glossary(p, "group, shape, stage of a reduction, Chaplygin, distribution, nonholonomic");
     nh_pen_end(p, run);
+    nh_stage_free(motion);
 }

@@ -5,14 +5,13 @@
 
 #include "base/memory.h"
 #include "document/scan.h"
+#include "document/screen.h"
 
 enum { most_classes = 6 };
 
 static const char caution[] =
-    "A scan is a search by numbers: it misses special values whose dip is narrower than the distance of two points, "
-    "and "
-    "those of integrals "
-    "outside of its ansatz spaces. nhsym classify excludes values by proof where the parameter allows it.";
+    "A scan is a search by numbers: it can miss values between two points, and conserved quantities outside its ansatz "
+    "spaces. nhsym classify excludes values by proof where the parameter allows it.";
 
 /* ---- words ---- */
 
@@ -74,8 +73,8 @@ static const char *what(const nh_scan *x, const nh_scan_special *s)
 
 /* ---- numbers ---- */
 
-/* dimension: "2 at 60 points, 3 at 1" */
-static void counts(nh_pen *p, const nh_scan *x, size_t number)
+/* "2 at 60 points, 3 at 1" */
+static void counts(const nh_scan *x, size_t number, nh_text *out)
 {
     double *value = nh_alloc_array(x->points + 1, sizeof *value);
     size_t *times = nh_alloc_array(x->points + 1, sizeof *times), n = 0, missing = 0;
@@ -91,16 +90,14 @@ static void counts(nh_pen *p, const nh_scan *x, size_t number)
         if (k == n) value[n++] = v;
         times[k]++;
     }
-    nh_pen_fact_begin(p, x->source->name[number]);
     if (n > most) {
         double low = INFINITY, high = -INFINITY;
         for (size_t k = 0; k < n; k++) low = fmin(low, value[k]), high = fmax(high, value[k]);
-        nh_pen_say(p, "from %.6g to %.6g", low, high);
+        nh_text_addf(out, "from %.6g to %.6g", low, high);
     }
     for (size_t k = 0; k < n && n <= most; k++)
-        nh_pen_say(p, "%s%.6g at %zu point%s", k ? ", " : "", value[k], times[k], times[k] == 1 ? "" : "s");
-    if (missing) nh_pen_say(p, "%snone at %zu point%s", n ? ", " : "", missing, missing == 1 ? "" : "s");
-    nh_pen_close(p, NH_PEN_FACT);
+        nh_text_addf(out, "%s%.6g at %zu point%s", k ? ", " : "", value[k], times[k], times[k] == 1 ? "" : "s");
+    if (missing) nh_text_addf(out, "%snone at %zu point%s", n ? ", " : "", missing, missing == 1 ? "" : "s");
     nh_free(value);
     nh_free(times);
 }
@@ -125,31 +122,44 @@ static void numbers(nh_pen *p, const nh_scan *x)
     nh_pen_close(p, NH_PEN_WORDS);
     if (x->chunked) return;
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
-    for (size_t i = 0; i < x->source->count; i++) counts(p, x, i);
+    for (size_t i = 0; i < x->source->count; i++) {
+        nh_text text;
+        nh_text_init(&text);
+        counts(x, i, &text);
+        nh_pen_fact(p, x->source->name[i], "%s", nh_text_string(&text));
+        nh_text_clear(&text);
+    }
     if (reason(x)) nh_pen_fact(p, "at some points", "%s", reason(x));
     nh_pen_close(p, NH_PEN_FACTS);
 }
 
 /* ---- special values ---- */
 
-static void answer(nh_pen *p, const nh_scan *x)
+static void put_answer(const nh_scan *x, nh_text *out)
 {
     size_t sure = 0;
     for (size_t i = 0; i < x->specials; i++) sure += x->special[i].confirmed;
-    nh_pen_open(p, NH_PEN_ANSWER, x->partial || x->chunked ? "undecided" : "found", NULL);
     if (x->chunked)
-        nh_pen_say(p,
-                   "This part: %zu of %zu units are finished. When all parts are, the same command without --chunk "
-                   "writes the result.",
-                   x->finished, x->units);
+        nh_text_addf(out, "This part: %zu of %zu units are finished. When all parts are, the same command without "
+                     "--chunk writes the result.", x->finished, x->units);
     else if (x->partial && x->finished < x->units)
-        nh_pen_say(p, "Not finished: %zu of %zu units. The same command continues. ", x->finished, x->units);
+        nh_text_addf(out, "Not finished: %zu of %zu units. The same command continues. ", x->finished, x->units);
     else if (x->partial)
-        nh_pen_say(p, "Not finished: %zu jumps remain to be examined. The same command continues. ", x->unrefined);
+        nh_text_addf(out, "Not finished: %zu jumps remain to be examined. The same command continues. ", x->unrefined);
     if (!x->chunked)
-        nh_pen_say(p, "%zu confirmed special value%s, %zu not confirmed, from %zu point%s.", sure, sure == 1 ? "" : "s",
-                   x->specials - sure, x->points, x->points == 1 ? "" : "s");
+        nh_text_addf(out, "%zu confirmed special value%s, %zu not confirmed, from %zu point%s.", sure,
+                     sure == 1 ? "" : "s", x->specials - sure, x->points, x->points == 1 ? "" : "s");
+}
+
+static void answer(nh_pen *p, const nh_scan *x)
+{
+    nh_text text;
+    nh_text_init(&text);
+    put_answer(x, &text);
+    nh_pen_open(p, NH_PEN_ANSWER, x->partial || x->chunked ? "undecided" : "found", NULL);
+    nh_pen_say(p, "%s", nh_text_string(&text));
     nh_pen_close(p, NH_PEN_ANSWER);
+    nh_text_clear(&text);
 }
 
 /* The confirmed special values, or the others. */
@@ -364,8 +374,62 @@ static void spaces(nh_pen *p, const nh_scan *x)
     nh_pen_table_end(p);
 }
 
+/* ---- the first screen ---- */
+
+/* Confirmed values, then the others, as many as there is room for. */
+static size_t put_specials(const nh_scan *x, bool sure, size_t tail, nh_text *out)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < x->specials; i++) {
+        const nh_scan_special *s = &x->special[i];
+        if ((s->confirmed || s->kind == NH_SCAN_STEP) != sure || !count_alike(x, i)) continue;
+        nh_text block;
+        nh_text_init(&block);
+        nh_sheet_paragraph(2, 2 + NH_SCREEN_HANG, nh_arena_printf(x->arena, "%s%s: %s", sure ? "" : "perhaps ",
+                                                                  where(x, i), what(x, s)), &block);
+        left += !nh_screen_fit(out, &block, tail);
+    }
+    return left;
+}
+
+static void first_screen(const nh_scan *x, bool colour, nh_text *out)
+{
+    const char *open[3] = {NULL};
+    nh_text words;
+    nh_text_init(&words);
+    for (size_t a = 0; a < x->axes && a < 3; a++) open[a] = x->axis[a].name;
+    put_answer(x, &words);
+    nh_screen_begin(out, colour, x->system, open, &words);
+    size_t tail = 7 + 2 * x->source->count, left = 0;
+    if (!x->chunked) {
+        nh_text_add(out, x->specials ? "\n" : "");
+        left = put_specials(x, true, tail, out);
+        left += put_specials(x, false, tail, out);
+        if (left) nh_text_addf(out, "  %zu more (--details)\n", left);
+        nh_text_add(out, "\n");
+        for (size_t i = 0; i < x->source->count; i++) {
+            const char *name = x->source->name[i];
+            bool counted = !strcmp(x->source->of, "count");
+            nh_text_addf(&words, "%s%s: ", name,
+                         counted && !strcmp(name, "dimension")
+                             ? " (conserved polynomials in the velocities, with 1)"
+                         : counted && !strcmp(name, "independent") ? " (independent ones of these)"
+                                                                   : "");
+            counts(x, i, &words);
+            nh_screen_say(out, 0, &words);
+        }
+        nh_text_add(&words, caution);
+        nh_screen_say(out, 0, &words);
+    }
+    nh_screen_more(out, "the grid, and the spaces that were searched", NULL);
+}
+
 void nh_scan_write(const nh_scan *x, const nh_run *run, nh_pen_style style, nh_text *out)
 {
+    if (nh_screen_is_wanted(style)) {
+        first_screen(x, style.colour, out);
+        return;
+    }
     nh_pen pen, *p = &pen;
     bool fitted = false;
     nh_pen_subject subject = {.system = x->system, .dag = x->system->dag, .shown = run->shown};
@@ -378,7 +442,7 @@ void nh_scan_write(const nh_scan *x, const nh_run *run, nh_pen_style style, nh_t
     if (!x->chunked) {
         specials(p, x);
         figures(p, x);
-        if (fitted && (!p->ink->brief || style.verbose)) spaces(p, x);
+        if (fitted) spaces(p, x);
     }
     nh_pen_end(p, run);
 }

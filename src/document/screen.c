@@ -1,26 +1,69 @@
 #include "document/screen.h"
 
-#include <stdio.h>
+#include <ctype.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "document/sheet.h"
 #include "graph/print.h"
 
-void nh_screen_title(const nh_system *s, bool colour, nh_text *out)
+bool nh_screen_is_wanted(nh_pen_style style) { return style.form == NH_PEN_TEXT && !style.verbose; }
+
+static bool is_open(const char *const open[3], const char *name)
 {
-    enum { width = 80 };
-    size_t column = nh_text_width(s->title);
-    nh_text_addf(out, colour ? "\033[1m%s\033[0m" : "%s", s->title);
+    for (size_t i = 0; open && i < 3 && open[i]; i++)
+        if (!strcmp(open[i], name)) return true;
+    return false;
+}
+
+/* The length of the beginning "mass_" that at least three parameters share; 0: there is none. */
+static size_t shared_beginning(const nh_system *s, const char *name)
+{
+    enum { least = 3, letters = 3 };
+    const char *end = strchr(name, '_');
+    size_t length = end ? (size_t)(end - name) + 1 : 0, n = 0;
+    for (size_t i = 0; length && i < s->parameters; i++) n += !strncmp(s->parameter[i].name, name, length);
+    return n >= least && length > letters && isalpha((unsigned char)name[length]) ? length : 0;
+}
+
+enum { glue = 1 }; /* for a blank at which no line is broken */
+
+/* "m = 1, l = 1" in one line. */
+static void put_parameters(const nh_system *s, const char *const open[3], nh_text *out)
+{
+    size_t grouped = 0;
     for (size_t i = 0; i < s->parameters; i++) {
-        char one[120];
-        snprintf(one, sizeof one, "%s = %.6g%s", s->parameter[i].name, s->parameter[i].value,
-                 i + 1 < s->parameters ? "," : "");
-        bool fits = column + nh_text_width(one) + 3 <= width;
-        nh_text_addf(out, "%s%s", !fits ? "\n  " : i ? " " : "   ", one);
-        column = (fits ? column + (i ? 1 : 3) : 2) + nh_text_width(one);
+        const char *name = s->parameter[i].name;
+        size_t length = shared_beginning(s, name), before = 0, group = 0;
+        for (size_t j = 0; length && j < i; j++) before += !strncmp(s->parameter[j].name, name, length);
+        for (size_t j = i; j < s->parameters && !before; j++) {
+            const char *other = s->parameter[j].name;
+            if ((length ? strncmp(other, name, length) != 0 : j > i) || is_open(open, other)) continue;
+            nh_text_add(out, !out->length ? "" : grouped && !group ? "; " : ", ");
+            if (!length) nh_text_addf(out, "%s%c=%c%.6g", other, glue, glue, s->parameter[j].value);
+            else nh_text_addf(out, "%.*s%s%s%c%.6g", group ? 0 : (int)length - 1, name, group ? "" : ": ",
+                              other + length, glue, s->parameter[j].value);
+            group++, grouped = length;
+        }
     }
+}
+
+void nh_screen_begin(nh_text *out, bool colour, const nh_system *s, const char *const open[3], nh_text *answer)
+{
+    enum { width = 80, blanks = 3 };
+    size_t start = out->length;
+    nh_text values;
+    nh_text_init(&values);
+    put_parameters(s, open, &values);
+    bool fit = nh_text_width(s->title) + blanks + nh_text_width(nh_text_string(&values)) <= width;
+    nh_text_addf(out, colour ? "\033[1m%s\033[0m" : "%s", s->title);
+    if (fit && values.length) nh_text_addf(out, "   %s", nh_text_string(&values));
     nh_text_add(out, "\n");
+    nh_screen_say(out, 0, answer);
+    if (!fit) nh_screen_say(out, 2, &values);
+    for (size_t i = start; i < out->length; i++)
+        if (out->data[i] == glue) out->data[i] = ' ';
+    nh_text_clear(&values);
 }
 
 void nh_screen_say(nh_text *out, size_t indent, nh_text *words)
@@ -52,9 +95,43 @@ void nh_screen_equation(const char *label, nh_dag *d, nh_ex e, nh_text *out)
     nh_text_clear(&line);
 }
 
+bool nh_screen_put(nh_text *out, bool colour, size_t indent, const char *head, const char *formula, size_t most,
+                   const char *instead)
+{
+    nh_text line, block;
+    nh_text_init(&line);
+    nh_text_init(&block);
+    nh_text_addf(&line, "%s%s", head, formula ? formula : instead);
+    nh_sheet_broken(indent, indent + NH_SCREEN_HANG + (indent ? 0 : 2), nh_text_string(&line), &block);
+    size_t n = nh_screen_count(nh_text_string(&block));
+    bool written = formula && n <= most;
+    if (formula && !written) {
+        nh_text_clear(&block);
+        nh_text_addf(&block, "%*s%sa formula of %zu lines (--details)\n", (int)indent, "", head, n);
+    }
+    nh_screen_formula(out, colour, nh_text_string(&block));
+    nh_text_clear(&line);
+    nh_text_clear(&block);
+    return written;
+}
+
 size_t nh_screen_count(const char *text)
 {
     size_t n = 0;
     for (; *text; text++) n += *text == '\n';
     return n;
+}
+
+bool nh_screen_fit(nh_text *out, nh_text *block, size_t tail)
+{
+    size_t lines = nh_screen_count(nh_text_string(out)) + nh_screen_count(nh_text_string(block)) + tail;
+    if (lines <= NH_SCREEN_LINES) nh_text_add(out, nh_text_string(block));
+    nh_text_clear(block);
+    return lines <= NH_SCREEN_LINES;
+}
+
+void nh_screen_more(nh_text *out, const char *details, const char *other)
+{
+    nh_text_addf(out, "\nMore: --details   %s\n", details);
+    if (other) nh_text_addf(out, "      %s\n", other);
 }

@@ -14,6 +14,9 @@ char *nh_motion_json(const nh_simulation *simulation, const nh_run *run);
 
 void nh_simulation_write(const nh_simulation *simulation, const nh_run *run, nh_pen_style style, nh_text *out);
 
+/* For the top of a page; NULL where there are less than two times.  nh_stage_free. */
+nh_stage *nh_simulation_stage(const nh_simulation *simulation, const nh_run *run);
+
 /* The member `accuracy` of a motion; null when a is NULL. */
 void nh_accuracy_json(const nh_accuracy *a, nh_json *root);
 

@@ -84,6 +84,8 @@ void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_style
     nh_time_series *c = e ? NULL : nh_time_series_of_simulation(s);
     nh_pen_begin(p, style, &subject, e ? "many motions" : "a motion", out);
     answer(p, s);
+    nh_stage *stage = p->ink->stage && !e ? nh_simulation_stage(s, run) : NULL;
+    if (stage) p->ink->stage(p->to, stage);
     p->ink->links(p->to, !s->events       ? "motion|Motion|system|System|repeat|Repeat it"
                          : s->has_section ? "motion|Motion|events|Section|system|System|repeat|Repeat it"
                                           : "motion|Motion|events|Events|system|System|repeat|Repeat it");
@@ -97,5 +99,6 @@ void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_style
                  (double)(e ? e->evaluations : s->motion->evaluations), e ? e->seconds : s->motion->seconds);
     nh_pen_system(p, s->model, NULL);
     nh_pen_end(p, run);
+    nh_stage_free(stage);
     nh_time_series_free(c);
 }

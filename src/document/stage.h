@@ -26,4 +26,7 @@ typedef struct {
     const nh_stage_row *row;
 } nh_stage;
 
+/* The series and the live model of a stage; NULL: nothing happens. */
+void nh_stage_free(nh_stage *stage);
+
 #endif

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "document/simulation.h"
 #include "document/facts.h"
 #include "document/screen.h"
 #include "document/sheet.h"
@@ -147,7 +148,7 @@ static nh_ex rate(const nh_verification *v)
     return nh_simplify_short(o->dag, sum, 0);
 }
 
-static void put_yes(const nh_verification *v, nh_text *out)
+static void put_yes(const nh_verification *v, bool colour, nh_text *out)
 {
     nh_text words;
     nh_text_init(&words);
@@ -163,11 +164,11 @@ static void put_yes(const nh_verification *v, nh_text *out)
         nh_symmetry_words(v->model, &v->symmetry, &words);
         nh_text_add(&words, ".");
     }
-    nh_screen_say(out, 0, &words);
+    nh_screen_begin(out, colour, v->system, NULL, &words);
 }
 
 /* A state at which it changes, and its rate in general where that is short. */
-static void put_no(const nh_verification *v, nh_text *out)
+static void put_no(const nh_verification *v, bool colour, nh_text *out)
 {
     enum { short_rate = 120 };
     const nh_model *o = v->model;
@@ -184,7 +185,7 @@ static void put_no(const nh_verification *v, nh_text *out)
     } else if (!v->region) {
         nh_text_add(&words, ".");
     }
-    nh_screen_say(out, 0, &words);
+    nh_screen_begin(out, colour, v->system, NULL, &words);
     nh_ex general = o->chart->implicit || v->region ? 0 : rate(v);
     if (general && nh_complexity(o->dag, general) <= short_rate) {
         nh_text_add(out, "Its rate in general:\n");
@@ -194,15 +195,14 @@ static void put_no(const nh_verification *v, nh_text *out)
 
 static void first_screen(const nh_verification *v, bool colour, nh_text *out)
 {
-    nh_screen_title(v->system, colour, out);
-    if (v->conserved) put_yes(v, out);
-    else put_no(v, out);
-    nh_text_add(out, "\nMore: --details   symmetry, residual, state\n");
+    if (v->conserved) put_yes(v, colour, out);
+    else put_no(v, colour, out);
+    nh_screen_more(out, "symmetry, residual, state", NULL);
 }
 
 void nh_verification_write(const nh_verification *v, const nh_run *run, nh_pen_style style, nh_text *out)
 {
-    if (style.form == NH_PEN_TEXT && !style.verbose && !of_field(v) && !v->theory) {
+    if (nh_screen_is_wanted(style) && !of_field(v) && !v->theory) {
         first_screen(v, style.colour, out);
         return;
     }
@@ -212,6 +212,8 @@ void nh_verification_write(const nh_verification *v, const nh_run *run, nh_pen_s
         .system = v->system, .dag = v->model->dag, .chart = nh_verification_chart(v), .shown = run->shown};
     nh_pen_begin(p, style, &subject, of_field(v) ? "is it a symmetry?" : "is it conserved?", out);
     answer(p, v);
+    nh_stage *stage = p->ink->stage && v->motion ? nh_simulation_stage(v->motion, run) : NULL;
+    if (stage) p->ink->stage(p->to, stage);
     p->ink->links(p->to,
                   v->has_counterexample
                       ? "question|The question|counterexample|Where it fails|system|System|words|Words|repeat|Repeat it"
@@ -224,4 +226,5 @@ void nh_verification_write(const nh_verification *v, const nh_run *run, nh_pen_s
     nh_pen_geometry(p, v->arena, v->theory);
     nh_pen_glossary(p, "current, symmetry, case, distribution, projectable, residual");
     nh_pen_end(p, run);
+    nh_stage_free(stage);
 }

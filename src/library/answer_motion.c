@@ -29,6 +29,17 @@ nh_simulate_request nh_answer_motion(const nh_request *q)
                                  .options = q->options};
 }
 
+nh_simulation *nh_answer_motion_of_page(const nh_request *q)
+{
+    nh_error ignored = {0};
+    nh_simulate_request request = nh_answer_motion(q);
+    request.analysis_path = NULL;
+    request.also = q->current;
+    request.draw = request.picture = true;
+    request.accuracy = 0;
+    return nh_simulation_create(&request, &ignored);
+}
+
 /* Motions that ended early or missed the requested accuracy. */
 static void complain(const nh_simulation *s, nh_error *error)
 {

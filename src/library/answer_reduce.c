@@ -19,7 +19,7 @@ static bool reduce_check(const nh_request *q, nh_error *error)
     if (nh_export_target_of(q->to, &target, error)) {
         if (target != NH_EXPORT_JS) return true;
         nh_fail(error, NH_USAGE, "--to", "reduced equations are not written in JavaScript");
-        return nh_error_hint(error, "`nhsym export %.100s --to js` writes the whole motion", q->system_path);
+        return nh_error_hint(error, "`nhsym export SYSTEM --to js` writes the whole motion");
     }
     bool near = nh_text_nearest(q->to, &only, 1) != NULL;
     if (near || !strstr(error->hint, "did you mean")) error->hint[0] = 0;
@@ -41,7 +41,12 @@ static void reduction_free(nh_answer *a) { nh_reduction_free(a->part[0]); }
 
 static void reduction_write(const nh_answer *a, nh_pen_style style, nh_text *out)
 {
-    nh_reduction_write(a->part[0], &a->run, style, out);
+    nh_reduction *r = a->part[0];
+    nh_simulation *motion = style.form == NH_PEN_PAGE ? nh_answer_motion_of_page(a->request) : NULL;
+    r->motion = motion;
+    nh_reduction_write(r, &a->run, style, out);
+    r->motion = NULL;
+    nh_simulation_free(motion);
 }
 
 static char *reduction_json(const nh_answer *a) { return nh_reduction_json(a->part[0], &a->run); }

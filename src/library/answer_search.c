@@ -83,7 +83,12 @@ static void verification_free(nh_answer *a) { nh_verification_free(a->part[0]); 
 
 static void verification_write(const nh_answer *a, nh_pen_style style, nh_text *out)
 {
-    nh_verification_write(a->part[0], &a->run, style, out);
+    nh_verification *v = a->part[0];
+    nh_simulation *motion = style.form == NH_PEN_PAGE ? nh_answer_motion_of_page(a->request) : NULL;
+    v->motion = motion;
+    nh_verification_write(v, &a->run, style, out);
+    v->motion = NULL;
+    nh_simulation_free(motion);
 }
 
 static char *verification_json(const nh_answer *a) { return nh_verification_json(a->part[0], &a->run); }

@@ -3,20 +3,12 @@
   'use strict';
   function visible(e) { for (var d = e.closest('details'); d; d = d.parentElement.closest('details')) if (!d.open) return false; return true; }
   function all(selector) { return Array.prototype.slice.call(document.querySelectorAll(selector)); }
-  var seen = { resources: performance.getEntriesByType('resource').length, formulas: 0, empty: [], plots: [], width: document.documentElement.scrollWidth, room: document.documentElement.clientWidth };
+  var seen = { resources: performance.getEntriesByType('resource').length, formulas: 0, empty: [], width: document.documentElement.scrollWidth, room: document.documentElement.clientWidth };
   all('details').forEach(function (d) { d.open = true; });
   all('math').filter(visible).forEach(function (m) {
     var box = m.getBoundingClientRect();
     seen.formulas++;
     if (!(box.width > 0) || !(box.height > 0)) seen.empty.push(m.textContent.slice(0, 60));
-  });
-  all('svg.plot').forEach(function (s) {
-    if (s.id === 'scene') return;
-    var title = s.querySelector('title');
-    seen.plots.push({
-      title: title ? title.textContent : '', timed: s.hasAttribute('data-t0'),
-      points: Array.prototype.slice.call(s.querySelectorAll('path[fill=none]')).map(function (p) { return (p.getAttribute('d').match(/[ML]/g) || []).length; })
-    });
   });
   axe.run(document, { resultTypes: ['violations'] }).then(function (r) {
     seen.faults = r.violations.map(function (v) { return { id: v.id, impact: v.impact, where: v.nodes.slice(0, 3).map(function (n) { return n.target.join(' '); }).join('; '), nodes: v.nodes.length }; });

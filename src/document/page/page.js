@@ -268,6 +268,7 @@ function nhsymPage(model) {
     root.dataset.milliseconds = (performance.now() - before_).toFixed(1);
   }
   if ($('#reset')) $('#reset').onclick = () => { Object.assign(now, start); change(); };
+  for (const x of $('#tol') ? ['1e-4', '1e-6', '1e-9', '1e-11'] : []) $('#tol').add(new Option(x, x, false, +x === tol));
   if ($('#tol')) $('#tol').onchange = e => { tol = +e.target.value; change(); };
 
   // ---- to take away ----

@@ -124,7 +124,7 @@ function nhsymScene(stage, model, tools) {
     lowest = low[upward];
     centre = low.map((a, c) => (a + high[c]) / 2);
     extent = Math.max(Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]), 1e-9);
-    scale = 0.92 * Math.min(W, H) / extent;
+    scale = 1.15 * Math.min(W, H) / extent;
   }
   const see = p => { const q = plus(p, -1, centre), z = dot(q, away), far = 3 * extent, f = scale * far / Math.max(far - z, far / 8); return [W / 2 + f * dot(q, right), H / 2 - f * dot(q, top), z, f]; };
   const path = (ps, close) => ps.map((p, i) => { const q = see(p); return (i ? 'L' : 'M') + round(q[0]) + ' ' + round(q[1]); }).join('') + (close ? 'Z' : '');

@@ -474,7 +474,7 @@ class System:
         Parameters
         ----------
         to : str
-            "c", "python", "sympy", "matlab", "latex" or "json".
+            "c", "python", "sympy", "matlab", "js", "latex" or "json".
         folder : str or path, optional
             Where the files are written.
         of : str or list, optional
@@ -500,7 +500,7 @@ class System:
         True
         """
         if not isinstance(to, str):
-            raise unfit("to", to, "give a language: c, python, sympy, matlab, latex or json")
+            raise unfit("to", to, "give a language: c, python, sympy, matlab, js, latex or json")
         p = self._ask(dict(options=options))
         words = [bytes_of(word) for word in (to, list_text("of", of), list_text("input", input), None if name is None else text_of(name))]
         code = p.call(lambda error: library().nh_export_functions(p.address, *words, error), progress, lambda a: Code(a))
