@@ -15,7 +15,7 @@ Test(export_cli, wrong_words)
     static const char *const cases[][3] = {
         {"export", "`nhsym export` needs a system", "hint: nhsym export sleigh --to c -o code"},
         {"export driven.yaml", "--to: no language is given",
-         "hint: --to takes c, python, sympy, matlab, latex or json"},
+         "hint: --to takes c, python, sympy, matlab, js, latex or json"},
         {"export driven.yaml --to pyhton", "--to: there is no language `pyhton`", "hint: did you mean `python`?"},
         {"export driven.yaml --to c --of equatoins", "--of: there is no part `equatoins`",
          "hint: did you mean `equations`?"},

@@ -87,13 +87,16 @@ Test(first_screen, quantities_are_told_in_the_words_of_mechanics)
     static const struct {
         const char *system, *says[6];
     } screens[] = {
-        {"kepler", {"E = ", "Energy. From the symmetry in time.", "Angular momentum. From rotations in the plane of x and y.",
-                    "All are proved for all m, k.", "At most 6 can exist"}},
-        {"sleigh", {"All 5 conserved quantities", "1 to 4 are proved for all m, a, k; 5 for k = 2", "Follows from the others.",
-                    "The constraint y' = x'*tan(phi) is nonholonomic.", "x' = v*cos(phi)"}},
+        {"kepler", {"E = ", "Energy: the size of the orbit. From the symmetry in time.", "4  m*(x*z' - z*x')    Angular momentum. From rotations about z, x and y.",
+                    "Laplace-Runge-Lenz vector along z.", "further polynomials are conserved too, as functions of these (--details): Laplace-Runge-Lenz vector along y and x.",
+                    "All are proved for all m, k."}},
+        {"sleigh", {"All 5 conserved quantities", "Energy: how fast. From the symmetry in time.", "Which way it leaves.", "1 to 4 are proved for all m, a, k; 5 for k = 2", "Follows from the others.",
+                    "2, 5, 6 change when an angle makes a full turn."}},
         {"henon_heiles", {"Only the energy is conserved", "Nothing else is conserved among polynomials in the velocities up to degree 6", "y'' = y^2 - y - x^2"}},
         {"rolling_disk", {"3 independent conserved quantities were found. At most 8 can exist.   m = 1.3"}}, /* of its motion some states only are known */
-        {"lagrange_top", {"p_s = ", "Angular momentum conjugate to s. From turning s."}},
+        {"isotropic_oscillator", {"Linear in the velocities. From time-dependent shifts of x, y and z."}},
+        {"free_particle", {"Momentum conjugate to x and y. From shifting x and y.", "From boosts along x, y and z."}},
+        {"lagrange_top", {"p_s = ", "Angular momentum conjugate to s: spin about its own axis. From turning s."}},
     };
     place p = place_with_systems();
     for (size_t i = 0; i < sizeof screens / sizeof *screens; i++) {
@@ -106,6 +109,85 @@ Test(first_screen, quantities_are_told_in_the_words_of_mechanics)
             cr_expect(strstr(f.out, screens[i].says[k]), "%s: no `%s` in\n%s", line, screens[i].says[k], f.out);
         finished_clear(&f);
     }
+    place_clear(&p);
+}
+
+/* ---- names and symmetries, decided by algebra ---- */
+
+/* From which symmetry a quantity comes: a shift, a turn, a rotation, a boost, a scaling, time, several coordinates. */
+Test(first_screen, symmetries_have_their_names)
+{
+    static const struct {
+        const char *coordinates, *lagrangian, *current, *says;
+    } tried[] = {
+        {"[x: length, y: length]", "(x'^2 + y'^2)/2 - 9*y", "x'", "from shifting x."},
+        {"[x: length, {p: angle}]", "(x'^2 + x^2*p'^2)/2 - x^4", "x^2*p'", "from turning p."},
+        {"[x: length, y: length]", "(x'^2 + y'^2)/2 - (x^2 + y^2)^2", "x*y'-y*x'", "from rotations in the plane of x and y."},
+        {"[x: length, y: length, z: length]", "(x'^2 + y'^2 + z'^2)/2 - (x^2 + z^2)^2 - y", "z*x'-x*z'", "from rotations about y."},
+        {"[x: length, y: length]", "(x'^2 + y'^2)/2 - y^4", "t*x'-x", "from boosts along x."},
+        {"[x: length, y: length]", "(x'^2 + y'^2)/2 - 1/(x^2 + y^2)", "t*(x'^2+y'^2+2/(x^2+y^2))-x*x'-y*y'", "from a scaling of time, x and y."},
+        {"[x: length, y: length]", "x'*y' - x*y", "x*y'-y*x'", "from a scaling of x and y."},
+        {"[x: length, y: length]", "(x'^2 + y'^2)/2 - x^2/2 - y^4", "x'*cos(t)+x*sin(t)", "from time-dependent shifts of x."},
+        {"[x: length, y: length]", "(x'^2 + y'^2)/2 - (x - y)^4", "x'+y'", "from a joint shift of x and y."},
+        {"[x: length, y: length]", "(x'^2 + y'^2)/2 - x^4*y^2", "(x'^2+y'^2)/2+x^4*y^2", "from the symmetry in time."},
+        {"[x: length, y: length]", "(x'^2 + y'^2)/2 - x^4 - y^4", "x'^2/2+x^4", "from a symmetry that involves the velocities."},
+    };
+    place p = place_make();
+    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
+        char file[500], line[300];
+        snprintf(file, sizeof file, "name: a\ncoordinates: %s\nlagrangian: \"%s\"\ndomain: {x: [1, 2]}\n", tried[i].coordinates, tried[i].lagrangian);
+        write_here(&p, "a.yaml", file);
+        snprintf(line, sizeof line, "verify a.yaml --current %s", tried[i].current);
+        finished f = run_expecting(&p, line, 0);
+        check_screen(line, f.out);
+        one_line(f.out);
+        cr_expect(strstr(f.out, "Yes. This is conserved: proved") && strstr(f.out, tried[i].says), "%s: no `%s` in\n%s", tried[i].lagrangian, tried[i].says, f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* A component of the Laplace-Runge-Lenz vector is one only for the potential 1/r, whatever the letters are. */
+Test(first_screen, forms_have_their_names)
+{
+    static const struct {
+        const char *lagrangian, *says, *never;
+    } tried[] = {
+        {"3*(u'^2 + w'^2)/2 + q/sqrt(u^2 + w^2)", "Laplace-Runge-Lenz vector along", "Fradkin"},
+        {"3*(u'^2 + w'^2)/2 + q/sqrt(u^2 + w^2) - 1/u^2", "Quadratic in the velocities.", "Laplace"},
+        {"(u'^2 + w'^2)/2 - q*(u^2 + w^2 + 2*u^2*w + 2*w^3/3)/2", "1  E = ", "Fradkin"},
+    };
+    place p = place_make();
+    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
+        char file[500];
+        snprintf(file, sizeof file, "name: a\nparameters: {q: 0.8}\ncoordinates: [u: length, w: length]\nlagrangian: \"%s\"\ndomain: {u: [1, 2], w: [-1, 1]}\n", tried[i].lagrangian);
+        write_here(&p, "a.yaml", file);
+        finished f = run_expecting(&p, "analyze a.yaml", 0);
+        check_screen("analyze", f.out);
+        one_line(f.out);
+        cr_expect(strstr(f.out, tried[i].says), "%s: no `%s` in\n%s", tried[i].lagrangian, tried[i].says, f.out);
+        cr_expect(!strstr(f.out, tried[i].never), "%s\n%s", tried[i].lagrangian, f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* The rate at the state of the example is the value of the rate in general. */
+Test(first_screen, the_rate_of_what_is_not_conserved)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "verify sleigh --current omega", 1);
+    check_screen("verify", f.out);
+    one_line(f.out);
+    double omega = NAN, v = NAN, rate = NAN;
+    const char *at = strstr(f.out, "omega = "), *other = strstr(f.out, ", v = "), *there = strstr(f.out, "its rate there is ");
+    cr_assert(at && other && there, "%s", f.out);
+    sscanf(at, "omega = %lf", &omega);
+    sscanf(other, ", v = %lf", &v);
+    sscanf(there, "its rate there is %lf", &rate);
+    cr_expect(strstr(f.out, "rate = -omega*v/(a*k^2)"), "%s", f.out);
+    cr_expect(fabs(rate + omega*v/4) <= 2e-4*fabs(rate) && rate != 0, "%g %g %g", omega, v, rate);
+    finished_clear(&f);
     place_clear(&p);
 }
 

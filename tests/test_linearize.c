@@ -297,3 +297,23 @@ Test(linearize, refuses_kinks_poles_and_wrong_names)
         cr_expect(strstr(error.what, all[i].what) != NULL, "%zu: %s", i, error.what);
     }
 }
+
+/* ---- documents ---- */
+
+/* The heads of columns of numbers are words, or numbers where they are. */
+Test(linearize, tables_have_their_heads)
+{
+    place p = place_with_systems();
+    finished f = run_expecting(&p, "linearize double_pendulum --quiet --html page.html --tex page.tex", 0);
+    finished_clear(&f);
+    char *page = read_here(&p, "page.html"), *tex = read_here(&p, "page.tex");
+    cr_expect(strstr(page, "<th scope=\"col\">real part</th>") && !strstr(page, "<th scope=\"col\"><data value=\"0\">"));
+    cr_expect(strstr(tex, "real part & imaginary part"));
+    free(page), free(tex);
+    f = run_expecting(&p, "analyze pendulum --quiet --html page.html", 0);
+    finished_clear(&f);
+    page = read_here(&p, "page.html");
+    cr_expect(strstr(page, "<th scope=\"col\"><data value=\"1e-10\">"), "the tolerances above the drifts are numbers");
+    free(page);
+    place_clear(&p);
+}

@@ -1,6 +1,5 @@
 #include "document/analysis_answer.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +9,6 @@
 #include "document/formula.h"
 #include "document/screen.h"
 #include "document/sheet.h"
-#include "document/symmetry_words.h"
 #include "graph/print.h"
 #include "integrals/fixed.h"
 #include "integrals/real_where.h"
@@ -145,6 +143,21 @@ const char *nh_analysis_answer_proof(const nh_analysis *r, const nh_current *f)
     return text;
 }
 
+/* "1 to 3, 5": the quantities that are marked; how many. */
+static size_t put_numbers(const screen *x, const bool *marked, nh_text *out)
+{
+    size_t members = 0, n = x->r->count;
+    for (size_t i = 0, end; i < n; i = end + 1) {
+        end = i;
+        if (!marked[i]) continue;
+        while (end + 1 < n && marked[end + 1]) end++;
+        nh_text_addf(out, members ? ", %zu" : "%zu", i + 1);
+        if (end > i) nh_text_addf(out, end == i + 1 ? ", %zu" : " to %zu", end + 1);
+        members += end - i + 1;
+    }
+    return members;
+}
+
 /* "1 to 3 are proved for all m, k; 4 for k = 2." */
 static void put_proofs(const screen *x)
 {
@@ -153,68 +166,63 @@ static void put_proofs(const screen *x)
     nh_text words;
     if (!r->count) return;
     nh_text_init(&words);
+    bool *same = nh_alloc_array(r->count, sizeof *same);
     for (size_t k = 0; k < r->count; k++) {
-        size_t first = 0, members = 0, last = SIZE_MAX;
+        size_t first = 0, members = 0;
         while (strcmp(x->proof[first], x->proof[k])) first++;
         if (first < k) continue;
         nh_text_add(&words, groups ? "; " : "");
         bool all = true;
-        for (size_t i = 0; i < r->count; i++) all &= !strcmp(x->proof[i], x->proof[k]);
-        for (size_t i = k; i < r->count && !all; i++) {
-            if (strcmp(x->proof[i], x->proof[k])) continue;
-            size_t end = i;
-            while (end + 1 < r->count && !strcmp(x->proof[end + 1], x->proof[k])) end++;
-            members += end - i + 1;
-            nh_text_addf(&words, last == SIZE_MAX ? "%zu" : ", %zu", i + 1);
-            if (end > i) nh_text_addf(&words, end == i + 1 ? ", %zu" : " to %zu", end + 1);
-            last = i = end;
-        }
+        for (size_t i = 0; i < r->count; i++) all &= same[i] = !strcmp(x->proof[i], x->proof[k]);
+        if (!all) members = put_numbers(x, same, &words);
         if (all) nh_text_add(&words, r->count == 1 ? "Proved" : r->count == 2 ? "Both are proved" : "All are proved");
         else if (!groups) nh_text_add(&words, members > 1 ? " are proved" : " is proved");
         nh_text_add(&words, x->proof[k][0] || all || !groups ? x->proof[k] : " for all parameter values");
         groups++;
     }
+    nh_free(same);
     nh_text_add(&words, ".");
     say(x, r->count == 1 ? 3 : 0, &words);
 }
 
-/* "Energy.", "Momentum of x." */
-void nh_analysis_answer_meaning(const nh_analysis *r, const nh_current *f, bool rotations, nh_text *out)
+/* Those that are functions on the coverings of the angles' circles only. */
+static void put_local(const screen *x)
 {
-    const char *m = strncmp(f->meaning, "minus the ", 10) ? f->meaning : f->meaning + 10;
-    const char *of = strstr(m, "momentum of ") == m ? m + strlen("momentum of ") : NULL;
-    bool angle = false;
-    for (size_t s = 0; of && s < r->system->coordinates; s++)
-        angle |= !strcmp(of, r->system->coordinate[s].name) && r->system->coordinate[s].type == NH_ANGLE;
-    if (of) nh_text_addf(out, "%s conjugate to %s. ", angle ? "Angular momentum" : "Momentum", of);
-    else if (*m) nh_text_addf(out, "%c%s. ", toupper((unsigned char)*m), m + 1);
-    else if (rotations) nh_text_add(out, "Angular momentum. ");
+    const nh_analysis *r = x->r;
+    nh_text words;
+    nh_text_init(&words);
+    bool *local = nh_alloc_array(r->count + 1, sizeof *local);
+    for (size_t k = 0; k < r->count; k++) local[k] = r->found[k].local && r->found[k].independence != NH_DEPENDENT;
+    size_t n = put_numbers(x, local, &words);
+    if (n) nh_text_addf(&words, " change%s when an angle makes a full turn.", n == 1 ? "s" : "");
+    say(x, 0, &words);
+    nh_free(local);
 }
 
 static void put_quantity(const screen *x, size_t k)
 {
     const nh_analysis *r = x->r;
     const nh_current *f = &r->found[k];
-    nh_text words, symmetry;
-    nh_text_init(&words);
-    nh_text_init(&symmetry);
     bool written = !f->series && x->list.stands[k];
     char *formula = written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL;
     x->written[k] = put_formula(x, k + 1, nh_current_label(r, f), formula,
                                 f->series ? "a series (--details)" : "a long formula (--details)");
-    bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry);
-    nh_analysis_answer_meaning(r, f, rotations, &words);
-    bool follows = f->independence == NH_DEPENDENT;
-    if (symmetry.length && !x->terse && !follows) nh_text_addf(&words, "From %s. ", nh_text_string(&symmetry));
-    if (follows) nh_text_add(&words, "Follows from the others. ");
-    if (f->independence == NH_DOUBTFUL) nh_text_add(&words, "Perhaps it follows from the others. ");
-    if (f->independence == NH_CONSTANT) nh_text_add(&words, "It has the same value at all states. ");
-    if (f->local && !follows) nh_text_add(&words, "Not the same after a full turn of an angle. ");
-    if (!x->all_proved)
-        nh_text_addf(&words, "%s%s.", f->proof.proved && !(f->series && f->series->variables > 1) ? "Proved" : "",
-                     x->proof[k]);
-    say(x, k < 9 ? 3 : 4, &words);
-    nh_text_clear(&symmetry);
+}
+
+/* The formulas, and below those that belong together what they are. */
+static void put_quantities(const screen *x)
+{
+    size_t n = x->r->count;
+    nh_current_words *s = nh_arena_alloc(x->r->arena, (n + 1) * sizeof *s);
+    nh_text text;
+    nh_text_init(&text);
+    for (size_t k = 0; k < n; k++)
+        s[k] = nh_current_words_of(x->r, &x->r->found[k], !x->terse, x->all_proved ? NULL : x->proof[k]);
+    for (size_t k = 0, end; k < n; k = end) {
+        for (end = k; end < n && (end == k || nh_current_words_agree(&s[k], &s[end])); end++) put_quantity(x, end);
+        nh_current_words_put(end - k, s + k, &text);
+        say(x, end < 10 ? 3 : 4, &text);
+    }
 }
 
 /* The names of repeated parts that the written formulas need, once for all quantities.  Each part uses later names
@@ -267,11 +275,12 @@ static void quantities(screen *x)
     for (size_t k = 0; k < r->count; k++) e[k] = nh_analysis_answer_shown(r, &r->found[k]);
     x->list = nh_formula_list_make(r->model->dag, r->count, e, r->options.shown, &names);
     if (r->count) nh_text_add(x->out, "\n");
-    for (size_t k = 0; k < r->count; k++) put_quantity(x, k);
+    put_quantities(x);
     put_parts(x);
     nh_formula_list_clear(&x->list);
     nh_free(e);
     if (x->all_proved) put_proofs(x);
+    put_local(x);
     put_regions(x);
 }
 
@@ -406,8 +415,18 @@ static void furthers(const screen *x)
     nh_text words;
     if (!x->r->furthers) return;
     nh_text_init(&words);
-    nh_text_addf(&words, "%zu further polynomial%s conserved too, as %s of these (--details).", x->r->furthers,
+    nh_text_addf(&words, "%zu further polynomial%s conserved too, as %s of these (--details)", x->r->furthers,
                  x->r->furthers > 1 ? "s are" : " is", x->r->furthers > 1 ? "functions" : "a function");
+    nh_current_words first = {.name = ""}, *s = nh_arena_alloc(x->r->arena, x->r->furthers * sizeof *s);
+    bool alike = true;
+    for (size_t i = 0; i < x->r->furthers; i++) {
+        s[i] = nh_current_words_of(x->r, &x->r->further[i].current, false, NULL);
+        s[i].rest = "";
+        if (!i) first = s[i];
+        alike &= nh_current_words_agree(&s[i], &first);
+    }
+    nh_text_add(&words, alike && *first.of ? ": " : ".");
+    if (alike && *first.of) nh_current_words_put(x->r->furthers, s, &words);
     say(x, 0, &words);
 }
 

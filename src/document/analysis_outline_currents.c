@@ -249,6 +249,7 @@ static void current(nh_pen *p, const nh_analysis *r, const nh_current *f, bool *
     else closed_form(p, r, f);
     definitions(p, r, f, told);
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+    if (f->doc) nh_pen_fact(p, "In words", "%s", f->doc);
     if (f->known) nh_pen_fact(p, "Known", "%s; brackets mark currents that the system file gives", f->known);
     certificate(p, r, f);
     if (v && isfinite(drift))

@@ -7,7 +7,6 @@
 #include "document/analysis_answer.h"
 #include "document/current_words.h"
 #include "document/live.h"
-#include "document/symmetry_words.h"
 
 enum { most_named = 6 }; /* parameters */
 
@@ -32,20 +31,20 @@ static const char *without_end(nh_arena *arena, const char *text, const char *en
     return nh_arena_strndup(arena, text, n);
 }
 
+static const char *joined(nh_arena *arena, const char *a, const char *b)
+{
+    return nh_arena_printf(arena, "%s%s%s", a, *b ? " " : "", b);
+}
+
 static nh_stage_row row_of(const nh_analysis *r, const nh_current *f)
 {
-    nh_text symmetry, meaning;
-    nh_text_init(&symmetry);
-    nh_text_init(&meaning);
-    bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &symmetry),
-         follows = f->independence == NH_DEPENDENT;
-    nh_analysis_answer_meaning(r, f, rotations, &meaning);
+    nh_current_words words = nh_current_words_of(r, f, true, NULL);
     const char *sure = nh_analysis_answer_proof(r, f);
     if (f->proof.all_parameters && !strncmp(sure, " for all ", 9) && r->system->parameters > most_named)
         sure = "for all parameter values";
-    nh_stage_row row = {.name = without_end(r->arena, nh_text_string(&meaning), ". "),
-                        .doc = follows ? "follows from the others" : "",
-                        .from = follows ? "" : nh_arena_strdup(r->arena, nh_text_string(&symmetry)),
+    nh_stage_row row = {.name = joined(r->arena, words.name, words.of),
+                        .doc = f->independence == NH_DEPENDENT ? "follows from the others" : words.doc,
+                        .from = joined(r->arena, words.how, words.what),
                         .sure = *sure == ' ' ? sure + 1 : sure,
                         .anchor = nh_arena_printf(r->arena, "q-%s", f->name),
                         .label = without_end(r->arena, nh_current_label(r, f), "= "),
@@ -53,8 +52,6 @@ static nh_stage_row row_of(const nh_analysis *r, const nh_current *f)
                         .proved = f->proof.proved && !(f->series && f->series->variables > 1),
                         .series = f->series != NULL,
                         .drift = f->drift.drift[NH_DRIFT_RUNS - 1]};
-    nh_text_clear(&symmetry);
-    nh_text_clear(&meaning);
     return row;
 }
 

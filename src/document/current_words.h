@@ -1,4 +1,4 @@
-/* current_words: a conserved quantity in the words of mechanics: its sign, its letter, its name. */
+/* current_words: a conserved quantity in the words of mechanics: its sign, its letter, its name, its symmetry. */
 #ifndef NH_CURRENT_WORDS_H
 #define NH_CURRENT_WORDS_H
 
@@ -10,5 +10,26 @@ bool nh_current_is_energy(const nh_current *current); /* or minus the energy */
 nh_ex nh_current_signed(const nh_analysis *result, const nh_current *current, nh_ex e);
 /* "E = ", "p_x = ", or "": for what stands before the formula; in the arena of the result. */
 const char *nh_current_label(const nh_analysis *result, const nh_current *current);
+
+/* What is said of a quantity: "Momentum conjugate to x. From shifting x. Proved." */
+typedef struct {
+    const char *name, *of;  /* "Momentum conjugate to", "x"; or "" */
+    const char *doc; /* the sentence of the system file; or "" */
+    const char *how, *what; /* "shifting", "x"; or "" */
+    const char *rest;       /* further sentences */
+} nh_current_words;
+
+/* Strings belong to the result.  `symmetry`: say from which it comes.  `proof`: how sure it is; NULL: said
+ * elsewhere. */
+nh_current_words nh_current_words_of(const nh_analysis *result, const nh_current *current, bool symmetry,
+                                     const char *proof);
+/* Do they differ in the coordinates only, so that one sentence tells both? */
+bool nh_current_words_agree(const nh_current_words *a, const nh_current_words *b);
+/* The sentences for n that agree. */
+void nh_current_words_put(size_t n, const nh_current_words *words, nh_text *out);
+
+/* current_form.c: the name that its form gives a quantity, or "": "Component of the Laplace-Runge-Lenz vector along",
+ * "Quadratic in the velocities"; of: what stands after the name, or "". */
+const char *nh_current_form(const nh_analysis *result, nh_ex phi, const char **of);
 
 #endif

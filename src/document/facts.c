@@ -239,3 +239,11 @@ void nh_facts_completeness(const nh_analysis *r, nh_text *out)
         uncertain += r->found[k].independence == NH_INDEPENDENT && (!r->found[k].proof.proved || r->found[k].series);
     nh_completeness_words(r->completeness, uncertain, out);
 }
+
+bool nh_facts_head(const char *head, double *value)
+{
+    char *rest;
+    if (*head != '#') return false;
+    *value = strtod(head + 1, &rest);
+    return rest > head + 1 && !*rest;
+}

@@ -157,8 +157,9 @@ void nh_html_table(nh_html_writer *w, const char *caption, const char *heads)
         char *head = nh_alloc_array((size_t)(end - heads) + 1, 1);
         memcpy(head, heads, (size_t)(end - heads));
         nh_html_add(w, "<th scope=\"col\">");
-        if (*head == '#') nh_html_number(w, strtod(head + 1, NULL), 2);
-        else nh_html_text(w, head);
+        double value;
+        if (nh_facts_head(head, &value)) nh_html_number(w, value, 2);
+        else nh_html_text(w, *head == '#' ? head + 1 : head);
         nh_html_add(w, "</th>");
         nh_free(head);
         if (!*end) nh_html_add(w, "</tr></thead>");

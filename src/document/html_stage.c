@@ -242,9 +242,9 @@ static void row(nh_html_writer *w, const nh_stage *s, const nh_formula_list *lis
                  "<tr data-quantity=\"%zu\" style=\"--k:var(--c%zu)\"><th scope=\"row\"><span class=\"nm\"><span "
                  "class=\"key\"></span><span>",
                  k, 1 + k % colours);
-    if (*r->anchor) nh_text_addf(w->out, "<a href=\"#%s\" aria-label=\"to the details\">", r->anchor);
+    if (*r->anchor) nh_text_addf(w->out, "<a href=\"#%s\">", r->anchor);
     if (*r->name) words(w, r->name);
-    else nh_html_source(w, s->live->quantity[k].name);
+    else nh_typeset_plain(s->live->quantity[k].name, w->out); /* a formula is no name of a link */
     nh_html_add(w, *r->anchor ? "</a>" : "");
     if (*r->doc) nh_html_add(w, " <span class=\"doc\">"), nh_html_prose(w, r->doc), nh_html_add(w, "</span>");
     nh_html_add(w, "</span></span><div class=\"f\">");

@@ -136,8 +136,9 @@ static void put_heads(nh_tex_writer *w, size_t n, const char *heads)
         length = strcspn(heads, "|");
         char *head = nh_alloc_array(length + 1, 1);
         memcpy(head, heads, length);
-        if (*head == '#') nh_tex_number(w, strtod(head + 1, NULL), 2);
-        else nh_tex_words(w, head);
+        double value;
+        if (nh_facts_head(head, &value)) nh_tex_number(w, value, 2);
+        else nh_tex_words(w, *head == '#' ? head + 1 : head);
         nh_tex_add(w, n ? " & " : "\\tabularnewline\\hline\\noalign{\\vskip 2pt}");
         nh_free(head);
     }

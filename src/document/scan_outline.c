@@ -411,8 +411,7 @@ static void first_screen(const nh_scan *x, bool colour, nh_text *out)
             const char *name = x->source->name[i];
             bool counted = !strcmp(x->source->of, "count");
             nh_text_addf(&words, "%s%s: ", name,
-                         counted && !strcmp(name, "dimension")
-                             ? " (conserved polynomials in the velocities, with 1)"
+                         counted && !strcmp(name, "dimension")     ? " (conserved polynomials, with 1)"
                          : counted && !strcmp(name, "independent") ? " (independent ones of these)"
                                                                    : "");
             counts(x, i, &words);

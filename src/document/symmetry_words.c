@@ -3,94 +3,198 @@
 #include "exact/normal.h"
 #include "graph/diff.h"
 
-/* What the components of a field on (t, q) are. */
+/* A field on (t, q): the symmetry itself, or its part that is no motion. */
 typedef struct {
-    bool time, constant_time; /* Z^0 is not zero; it is constant */
-    size_t moved, constant;   /* coordinates that move, by constants */
-    bool velocities, clock;   /* components contain velocities; t */
+    const nh_model *o;
+    nh_ex time, *space;     /* m */
+    bool velocities, clock; /* components contain velocities; t */
+    size_t moved;           /* coordinates that move */
 } shape;
 
-static shape shape_of(const nh_model *o, const nh_field *z)
+static bool has_velocities(const nh_model *o, nh_ex e)
 {
-    nh_dag *d = o->dag;
-    shape out = {.time = !nh_is_zero(d, z->time), .constant_time = nh_model_is_constant(o, z->time)};
+    for (size_t i = 0; i < o->n; i++)
+        if (nh_depends(o->dag, e, o->chart->w[i])) return true;
+    for (size_t i = 0; i < o->chart->implicit; i++)
+        if (nh_depends(o->dag, e, o->chart->u[i])) return true;
+    return false;
+}
+
+static void look(shape *x)
+{
+    const nh_model *o = x->o;
+    x->moved = 0;
+    x->velocities = x->clock = false;
     for (size_t s = 0; s <= o->m; s++) {
-        nh_ex e = s < o->m ? z->space[s] : z->time;
-        if (s < o->m && !nh_is_zero(d, e)) out.moved++, out.constant += nh_model_is_constant(o, e);
-        out.clock |= nh_depends(d, e, o->system->t);
-        for (size_t i = 0; i < o->n; i++) out.velocities |= nh_depends(d, e, o->chart->w[i]);
-        for (size_t i = 0; i < o->chart->implicit; i++) out.velocities |= nh_depends(d, e, o->chart->u[i]);
+        nh_ex e = s < o->m ? x->space[s] : x->time;
+        x->moved += s < o->m && !nh_is_zero(o->dag, e);
+        x->clock |= nh_depends(o->dag, e, o->system->t);
+        x->velocities |= has_velocities(o, e);
     }
-    return out;
+}
+
+/* Z + f Gamma moves the same solutions as Z.  With zeta = xi - tau v, the part of Z that is no motion, tau and xi are
+ * the components of a field on (t, q), if they contain no velocities.  Free systems in coordinate velocities only. */
+static bool without_motion(const nh_model *o, const nh_symmetry *z, shape *x)
+{
+    enum { longest = 200 };
+    nh_dag *d = o->dag;
+    if (o->k || o->n != o->m || o->framed || o->chart->quasi || o->chart->implicit) return false;
+    for (size_t i = 0; i < o->n; i++)
+        if (nh_kind_of(d, o->rho[i]) != NH_SYMBOL || nh_complexity(d, z->zeta[i]) > longest) return false;
+    nh_ex *xi = nh_arena_alloc(o->arena, o->m * sizeof *xi), tau = 0;
+    for (size_t s = 0; s < o->m; s++) {
+        nh_ex Q = nh_int(d, 0);
+        for (size_t i = 0; i < o->n; i++)
+            Q = nh_add(d, Q, nh_mul(d, z->zeta[i], nh_diff(d, o->rho[s], o->chart->w[i])));
+        if (!s) tau = nh_simplify(d, nh_neg(d, nh_diff(d, Q, o->rho[s])));
+        xi[s] = nh_simplify(d, nh_add(d, Q, nh_mul(d, tau, o->rho[s])));
+    }
+    *x = (shape){.o = o, .time = tau, .space = xi};
+    look(x);
+    return !x->velocities;
+}
+
+/* Are all components c q^s, with a constant c that may be 0; of t c t + c'? */
+static bool is_scaling(const shape *x)
+{
+    nh_dag *d = x->o->dag;
+    for (size_t s = 0; s <= x->o->m; s++) {
+        nh_ex e = s < x->o->m ? x->space[s] : x->time,
+              q = s < x->o->m ? x->o->system->coordinate[s].q : x->o->system->t;
+        nh_ex c = nh_simplify(d, nh_diff(d, e, q)), rest = nh_simplify(d, nh_sub(d, e, nh_mul(d, c, q)));
+        if (!nh_model_is_constant(x->o, c) || !nh_model_is_constant(x->o, rest)) return false;
+        if (s < x->o->m && !nh_is_zero(d, rest)) return false;
+    }
+    return true;
+}
+
+/* Are all components c t? */
+static bool is_boost(const shape *x)
+{
+    nh_dag *d = x->o->dag;
+    for (size_t s = 0; s < x->o->m; s++) {
+        nh_ex c = nh_simplify(d, nh_diff(d, x->space[s], x->o->system->t));
+        nh_ex rest = nh_simplify(d, nh_sub(d, x->space[s], nh_mul(d, c, x->o->system->t)));
+        if (!nh_model_is_constant(x->o, c) || !nh_is_zero(d, rest)) return false;
+    }
+    return true;
+}
+
+/* Do the components depend on t alone; on nothing (`constant`)? */
+static bool is_shift(const shape *x, bool constant)
+{
+    const nh_system *y = x->o->system;
+    for (size_t s = 0; s < x->o->m; s++) {
+        for (size_t r = 0; r < x->o->m; r++)
+            if (nh_depends(x->o->dag, x->space[s], y->coordinate[r].q)) return false;
+        if (constant && !nh_model_is_constant(x->o, x->space[s])) return false;
+    }
+    return true;
 }
 
 /* Is the field z^s = A^s_r q^r on lengths, with a constant A = -A^T, and constant on the other coordinates?  The rows
  * of A that are not zero are counted. */
-static bool is_rotation(const nh_model *o, const nh_field *z, size_t *rows)
+static bool is_rotation(const shape *x, size_t *rows)
 {
+    const nh_model *o = x->o;
     nh_dag *d = o->dag;
     const nh_coordinate *c = o->system->coordinate;
     *rows = 0;
     for (size_t s = 0; s < o->m; s++) {
         if (c[s].type == NH_ANGLE) {
-            if (!nh_model_is_constant(o, z->space[s])) return false;
+            if (!nh_model_is_constant(o, x->space[s])) return false;
             continue;
         }
-        nh_ex rest = z->space[s];
+        nh_ex rest = x->space[s];
         for (size_t r = 0; r < o->m; r++) {
-            nh_ex A = nh_simplify(d, nh_diff(d, z->space[s], c[r].q));
+            nh_ex A = nh_simplify(d, nh_diff(d, x->space[s], c[r].q));
             if (nh_is_zero(d, A)) continue;
             if (c[r].type == NH_ANGLE || !nh_model_is_constant(o, A)) return false;
-            nh_ex back = nh_simplify(d, nh_add(d, A, nh_diff(d, z->space[r], c[s].q)));
+            nh_ex back = nh_simplify(d, nh_add(d, A, nh_diff(d, x->space[r], c[s].q)));
             if (!nh_is_zero(d, back)) return false;
             rest = nh_sub(d, rest, nh_mul(d, A, c[r].q));
         }
         if (!nh_is_zero(d, nh_simplify(d, rest))) return false;
-        *rows += !nh_is_zero(d, z->space[s]);
+        *rows += !nh_is_zero(d, x->space[s]);
     }
     return *rows > 1;
 }
 
-/* "x, y and phi": the coordinates that move. */
-static void put_moved(const nh_model *o, const nh_field *z, size_t moved, nh_text *out)
+/* "time, x and phi": what moves. */
+static void put_moved(const shape *x, nh_text *out)
 {
-    size_t told = 0;
-    for (size_t s = 0; s < o->m; s++) {
-        if (nh_is_zero(o->dag, z->space[s])) continue;
-        nh_text_addf(out, "%s%s", !told ? "" : told + 1 == moved ? " and " : ", ", o->system->coordinate[s].name);
+    enum { most_named = 4 };
+    bool time = !nh_is_zero(x->o->dag, x->time);
+    size_t told = time;
+    if (time) nh_text_add(out, x->moved && x->moved <= most_named ? "time" : x->moved ? "time and " : "time");
+    if (x->moved > most_named) nh_text_addf(out, "%zu coordinates", x->moved);
+    for (size_t s = 0; s < x->o->m && x->moved <= most_named; s++) {
+        if (nh_is_zero(x->o->dag, x->space[s])) continue;
+        nh_text_addf(out, "%s%s", !told ? "" : told + 1 == x->moved + time ? " and " : ", ",
+                     x->o->system->coordinate[s].name);
         told++;
     }
 }
 
-bool nh_symmetry_words(const nh_model *o, const nh_symmetry *z, nh_text *out)
+/* The coordinate about which the two others are turned, where the positions are three lengths; SIZE_MAX: none. */
+static size_t axis_of(const shape *x)
 {
-    enum { most_named = 4 };
-    const nh_field *f = &z->field;
-    shape is = shape_of(o, f);
+    size_t axis = SIZE_MAX;
+    for (size_t s = 0; s < x->o->m; s++) {
+        if (x->o->system->coordinate[s].type == NH_ANGLE) return SIZE_MAX;
+        if (nh_is_zero(x->o->dag, x->space[s])) axis = s;
+    }
+    return x->o->m == 3 ? axis : SIZE_MAX;
+}
+
+static const char *involved(const shape *x)
+{
+    return !x->velocities ? "a symmetry that involves time"
+           : x->clock     ? "a symmetry that involves time and the velocities"
+                          : "a symmetry that involves the velocities";
+}
+
+static bool rotation_words(const shape *x, size_t rows, const char **how, nh_text *what)
+{
+    size_t axis = axis_of(x);
+    bool plane = rows == 2 && x->moved == 2;
+    *how = !plane ? "rotations" : axis < SIZE_MAX ? "rotations about" : "rotations in the plane of";
+    if (plane && axis < SIZE_MAX) nh_text_add(what, x->o->system->coordinate[axis].name);
+    else if (plane) put_moved(x, what);
+    return true;
+}
+
+bool nh_symmetry_words(const nh_model *o, const nh_symmetry *z, const char **how, nh_text *what)
+{
+    nh_dag *d = o->dag;
+    shape x = {.o = o, .time = z->field.time, .space = z->field.space};
     size_t rows;
-    if (is.velocities || is.clock) {
-        nh_text_addf(out, "a symmetry that involves %s%s%s", is.clock ? "time" : "",
-                     is.clock && is.velocities ? " and " : "", is.velocities ? "the velocities" : "");
+    look(&x);
+    if (x.velocities && !without_motion(o, z, &x)) {
+        x.velocities = true;
+        for (size_t s = 0; s <= o->m; s++)
+            x.clock |= nh_depends(d, s < o->m ? z->field.space[s] : z->field.time, o->system->t);
+        *how = involved(&x);
         return false;
     }
-    if (is.time && !is.moved && is.constant_time) {
-        nh_text_add(out, "the symmetry in time");
+    bool time = !nh_is_zero(d, x.time);
+    if (time && !x.moved && nh_model_is_constant(o, x.time)) {
+        *how = "the symmetry in time";
         return false;
     }
-    bool turns = !is.time && is_rotation(o, f, &rows);
-    if (turns && rows == 2 && is.moved == 2) nh_text_add(out, "rotations in the plane of ");
-    else if (turns) nh_text_add(out, "rotations");
-    else if (!is.time && is.moved == 1 && is.constant == 1) {
+    if (!time && is_rotation(&x, &rows)) return rotation_words(&x, rows, how, what);
+    if (!time && is_shift(&x, true)) {
         size_t s = 0;
-        while (nh_is_zero(o->dag, f->space[s])) s++;
-        nh_text_add(out, o->system->coordinate[s].type == NH_ANGLE ? "turning " : "shifting ");
-    } else if (!is.time && is.constant == is.moved) {
-        nh_text_add(out, "a joint shift of ");
-    } else {
-        nh_text_addf(out, "a symmetry that moves %s", is.time ? "time and " : "");
-    }
-    if (turns && !(rows == 2 && is.moved == 2)) return true;
-    if (is.moved <= most_named) put_moved(o, f, is.moved, out);
-    else nh_text_addf(out, "%zu coordinates", is.moved);
-    return turns;
+        while (nh_is_zero(d, x.space[s])) s++;
+        *how = x.moved > 1 ? "a joint shift of" : o->system->coordinate[s].type == NH_ANGLE ? "turning" : "shifting";
+    } else if (!time && is_boost(&x)) *how = "boosts along";
+    else if (!time && is_shift(&x, false)) *how = "time-dependent shifts of";
+    else if (is_scaling(&x)) *how = "a scaling of";
+    else if (x.clock) {
+        *how = involved(&x);
+        return false;
+    } else *how = "a symmetry that moves";
+    put_moved(&x, what);
+    return false;
 }

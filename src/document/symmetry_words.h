@@ -5,8 +5,10 @@
 #include "base/text.h"
 #include "integrals/symmetry.h"
 
-/* "the symmetry in time", "shifting x", "turning phi", "rotations in the plane of x and y", "a symmetry that involves
- * the velocities": to be read after "from".  True: rotations of positions. */
-bool nh_symmetry_words(const nh_model *model, const nh_symmetry *symmetry, nh_text *out);
+/* To be read after "from": how = "the symmetry in time", "shifting", "turning", "rotations about", "rotations in the
+ * plane of", "boosts along", "a scaling of", "a symmetry that involves the velocities"; what: the coordinates, or
+ * nothing.
+ * True: rotations of positions. */
+bool nh_symmetry_words(const nh_model *model, const nh_symmetry *symmetry, const char **how, nh_text *what);
 
 #endif

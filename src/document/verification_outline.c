@@ -160,9 +160,12 @@ static void put_yes(const nh_verification *v, bool colour, nh_text *out)
     nh_text_addf(&words, "%s%s%s.", nh_verification_branches(v), v->region ? ", " : "", v->region ? v->region : "");
     if (v->trivial) nh_text_add(&words, " It is the same number at all states.");
     if (v->has_symmetry && !v->trivial) {
-        nh_text_add(&words, " It comes from ");
-        nh_symmetry_words(v->model, &v->symmetry, &words);
-        nh_text_add(&words, ".");
+        const char *how;
+        nh_text what;
+        nh_text_init(&what);
+        nh_symmetry_words(v->model, &v->symmetry, &how, &what);
+        nh_text_addf(&words, " It comes from %s%s%s.", how, what.length ? " " : "", nh_text_string(&what));
+        nh_text_clear(&what);
     }
     nh_screen_begin(out, colour, v->system, NULL, &words);
 }
@@ -197,7 +200,8 @@ static void first_screen(const nh_verification *v, bool colour, nh_text *out)
 {
     if (v->conserved) put_yes(v, colour, out);
     else put_no(v, colour, out);
-    nh_screen_more(out, "symmetry, residual, state", NULL);
+    nh_screen_more(out, v->conserved ? "the symmetry in full, and the check" : "the state in full, and the check",
+                   NULL);
 }
 
 void nh_verification_write(const nh_verification *v, const nh_run *run, nh_pen_style style, nh_text *out)

@@ -53,6 +53,7 @@ typedef struct {
     const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
     /* in terms of currents that the system's file knows, in brackets: "Phi4 = [Phi3]/a^2"; or NULL */
     const char *known;
+    const char *doc;          /* what the file says of the known current of which it is a multiple; or NULL */
     bool has_symmetry, local;
     bool on_both;             /* of two branches: as printed, current and field hold on the other one too */
     const char *region;       /* of a piece: where it holds, "for x > 0" */

@@ -159,7 +159,7 @@ enum { most_known = 6 };
 
 /* The known currents that can be written in the chart, as "[Phi3]" where the file says Phi3: the found ones may have
  * the same names. */
-static size_t known_currents(nh_analysis *r, nh_ex *symbol, nh_ex *phi)
+static size_t known_currents(nh_analysis *r, nh_ex *symbol, nh_ex *phi, const char **doc)
 {
     const nh_system *s = r->model->system;
     size_t n = 0;
@@ -167,9 +167,19 @@ static size_t known_currents(nh_analysis *r, nh_ex *symbol, nh_ex *phi)
     nh_error_clear(&ignored);
     for (size_t k = 0; k < s->currents && n < most_known; k++) {
         if (!nh_analysis_file_to_chart(r->model, s->current[k].value, &phi[n], &ignored)) continue;
+        doc[n] = s->current[k].doc;
         symbol[n++] = nh_symbol_fresh(r->model->dag, nh_arena_printf(r->arena, "[%s]", s->current[k].name));
     }
     return n;
+}
+
+/* "Phi2 = -[Phi3]" where the last of n + 1 is a constant multiple of the k-th, or NULL. */
+static const char *multiple(nh_analysis *r, const nh_points *points, size_t n, size_t k, const nh_ex *symbol,
+                            const nh_ex *phi)
+{
+    monomials two = {2, (nh_ex[]){symbol[k], symbol[n]}, (nh_ex[]){phi[k], phi[n]}};
+    bool both[2] = {false, false};
+    return numeric_relation(points, r->model, &two, both) ? exact_relation(r, &two, both, symbol[n]) : NULL;
 }
 
 /* Is it a constant multiple of one of them, or a sum of multiples? */
@@ -178,10 +188,7 @@ static const char *combination(nh_analysis *r, const nh_points *points, size_t n
     nh_ex name[most_known + 1], value[most_known + 1];
     bool used[most_known + 1] = {false};
     for (size_t k = 0; k < n; k++) {
-        monomials two = {2, (nh_ex[]){symbol[k], symbol[n]}, (nh_ex[]){phi[k], phi[n]}};
-        bool both[2] = {false, false};
-        if (!numeric_relation(points, r->model, &two, both)) continue;
-        const char *text = exact_relation(r, &two, both, symbol[n]);
+        const char *text = multiple(r, points, n, k, symbol, phi);
         if (text) return text;
     }
     memcpy(name, symbol, (n + 1) * sizeof *name);
@@ -212,7 +219,8 @@ static const char *product(nh_analysis *r, const nh_points *points, size_t n, co
 void nh_dependence_on_known(nh_analysis *r)
 {
     nh_ex symbol[most_known + 1], phi[most_known + 1];
-    size_t n = r->model->system->currents ? known_currents(r, symbol, phi) : 0;
+    const char *doc[most_known];
+    size_t n = r->model->system->currents ? known_currents(r, symbol, phi, doc) : 0;
     nh_points *points = NULL;
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -221,9 +229,12 @@ void nh_dependence_on_known(nh_analysis *r)
             nh_points_create(r->model, point_factor * (most_known + 1), 1, (uint64_t)r->options.seed + 307, &ignored);
     for (size_t k = 0; k < r->count && points; k++) {
         nh_current *f = &r->found[k];
-        if (f->meaning[0] || f->series) continue;
+        if (f->series) continue;
         symbol[n] = nh_symbol_fresh(r->model->dag, f->name);
         phi[n] = f->phi;
+        for (size_t i = 0; i < n && !f->doc; i++)
+            if (*doc[i] && multiple(r, points, n, i, symbol, phi)) f->doc = doc[i];
+        if (f->meaning[0]) continue;
         f->known = combination(r, points, n, symbol, phi);
         if (!f->known) f->known = product(r, points, n, symbol, phi);
     }

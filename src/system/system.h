@@ -43,7 +43,7 @@ typedef struct {
 } nh_interval;
 
 typedef struct {
-    const char *name, *text;
+    const char *name, *text, *doc; /* doc: a sentence about a known current, or "" */
     nh_ex value;
     /* of a known current: the reason why the program's own ansatz does not contain it, or NULL */
     const char *out_of_reach;

@@ -363,6 +363,7 @@ static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, cons
         if (!expr) return nh_deck_fail(r->deck, item, 0, r->error, "this entry has no `expr`");
         *named = (nh_named){.text = expr->text};
         if (!nh_system_text_of(r, item, "name", "", &named->name)) return false;
+        if (!nh_system_text_of(r, item, "doc", "", &named->doc)) return false;
         if (!nh_system_text_of(r, item, "out_of_reach", NULL, &named->out_of_reach)) return false;
         if (!nh_system_truth_of(r, item, "unwatched", "a current without a column in `simulate` and `benchmark`",
                                 &named->unwatched))
