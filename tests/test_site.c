@@ -62,6 +62,18 @@ static void dead_links_are_found(const place *p)
     finished_clear(&f);
 }
 
+/* A product whose stars Markdown takes for emphasis, and emphasis. */
+static void torn_formulas_are_found(const place *p)
+{
+    char command[2 * PATH_MAX];
+    snprintf(command, sizeof command,
+             "cd '%.4000s/docs/site' && python3 -B -c \"import make; print(make.torn(make.converted({'a.md': 'so a*b - c*d is'})['a.md']), make.torn(make.converted({'a.md': 'a *bold* (*b*) word'})['a.md']))\"",
+             p->project);
+    finished f = shell(p, command);
+    cr_expect_str_eq(f.out, "so a<em>b - c None\n", "%s", f.err);
+    finished_clear(&f);
+}
+
 static bool search_finds(const place *p)
 {
     char command[2 * PATH_MAX];
@@ -91,6 +103,7 @@ Test(site, is_made_has_no_dead_link_and_is_searched, PLAIN_ONLY)
         cr_expect(gallery && live && strstr(gallery, "href=\"gallery/pendulum.html\"") && strstr(gallery, "src=\"docs/catalogue/pendulum.svg\""));
         free(gallery), free(live);
         interfaces_are_complete(&p);
+        torn_formulas_are_found(&p);
         searched = search_finds(&p);
         dead_links_are_found(&p);
     }

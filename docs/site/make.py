@@ -99,6 +99,12 @@ def with_anchors(body):
     return re.sub(r"<h(\d)>(.*?)</h\1>", heading, body, flags=re.S)
 
 
+def torn(body):
+    """A piece of text in which emphasis begins or ends inside of a word, as in a*b + c*d; None: there is none."""
+    found = re.search(r"[^<>]*[\w)]<em>[^<]*|<em>[^<]*</em>[\w(][^<]*", body)
+    return found and found[0]
+
+
 def contents_of(body):
     """The headings below the page's own, as a list."""
     links = ['<li class="level%s"><a href="#%s">%s</a></li>' % (level, anchor, html.escape(plain(words))) for level, anchor, words in re.findall(r'<h([23]) id="([^"]*)">(.*?)</h', body, re.S)]
@@ -187,9 +193,8 @@ class Site:
     def make(self):
         bodies = converted({source: self.texts[source]() if source in self.texts else read(source) for source, _ in self.order})
         for source, _ in self.order:
-            torn = re.search(r"[^<>]*[\w)]<em>[^<]*|<em>[^<]*</em>[\w(][^<]*", bodies[source])
-            if torn:
-                sys.exit("%s: a formula whose * became emphasis; put it between backticks: %s" % (source, torn[0]))
+            if torn(bodies[source]):
+                sys.exit("%s: a formula whose * became emphasis; put it between backticks: %s" % (source, torn(bodies[source])))
             self.page(source, bodies[source])
         for name in ("style.css", "search.js"):
             shutil.copyfile(os.path.join(HERE, name), os.path.join(self.out, name))
