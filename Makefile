@@ -334,7 +334,7 @@ install: all library
 	install -m 644 $(BUILD)/libnhsym.a $(DESTDIR)$(LIBDIR)/
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBRARIES@|$(LDLIBS)|' src/library/nhsym.pc.in \
 	    >$(DESTDIR)$(LIBDIR)/pkgconfig/nhsym.pc
-	install -d $(addprefix $(SHARE)/nhsym/,systems/stress analyses schema) $(addprefix $(SHARE)/doc/nhsym/,pictures catalogue extend)
+	install -d $(addprefix $(SHARE)/nhsym/,systems/stress analyses schema) $(addprefix $(SHARE)/doc/nhsym/,pictures catalogue extend notebooks)
 	install -m 644 systems/*.yaml $(SHARE)/nhsym/systems/
 	install -m 644 systems/stress/*.yaml $(SHARE)/nhsym/systems/stress/
 	install -m 644 analyses/*.yaml $(SHARE)/nhsym/analyses/
@@ -343,6 +343,7 @@ install: all library
 	    sed 's#](docs/#](#g; s#](schema/#](../../nhsym/schema/#g; s#](LICENSE)#](https://www.gnu.org/licenses/gpl-3.0.html)#; s#](\.\./tests/extend/#](extend/#g' $$page >$(SHARE)/doc/nhsym/$${page##*/} || exit; done # with the links that hold there
 	install -m 644 docs/example.c docs/nhsym.ipynb docs/CITATION.cff $(SHARE)/doc/nhsym/
 	install -m 644 docs/pictures/* $(SHARE)/doc/nhsym/pictures/
+	install -m 644 docs/notebooks/* $(SHARE)/doc/nhsym/notebooks/
 	install -m 644 docs/catalogue/* $(SHARE)/doc/nhsym/catalogue/
 	install -m 644 tests/extend/*.txt $(SHARE)/doc/nhsym/extend/
 	install -d $(addprefix $(SHARE)/,man/man1 man/man3 bash-completion/completions zsh/site-functions fish/vendor_completions.d)

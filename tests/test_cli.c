@@ -269,8 +269,8 @@ Test(cli, words_and_symbols_of_the_answers_are_explained)
 /* Words as reports have them, which are no topics: those that say or contain them. */
 Test(cli, words_in_definitions_are_found)
 {
-    static const char *const cases[][2] = {{"growth vector", "growth: Growth vector:"}, {"canonical distribution", "distribution: The canonical distribution"},
-                                           {"case 1", "case: Z is a symmetry"}, {"search exhausted", "exhausted: "}};
+    static const char *const cases[][2] = {{"growth vector", "growth: The growth vector"}, {"canonical distribution", "distribution: The canonical distribution"},
+                                           {"case 1", "case: How Z relates"}, {"search exhausted", "exhausted: "}};
     place p = place_make();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char line[100];

@@ -151,7 +151,7 @@ Test(identities, an_algebraic_value_is_not_denied)
                              "lagrangian: (x'^2+y'^2)/2-x^4/4-y^4/3-(k-sqrt(2))*(3*x*y^2+x^3*y)\n");
     finished f = run(&p, "classify k.yaml --over k");
     cr_assert_eq(f.code, 0, "%s", f.err);
-    cr_expect(strstr(f.out, "No known value of k") && strstr(f.out, "Up to 1 algebraic value"), "%s", f.out);
+    cr_expect(strstr(f.out, "No known value of k") && strstr(f.out, "Up to 1 algebraic number"), "%s", f.out);
     cr_expect_null(strstr(f.out, "No special values"), "%s", f.out);
     finished_clear(&f);
     place_clear(&p);

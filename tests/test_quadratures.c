@@ -17,24 +17,29 @@
 
 /* ---- asking ---- */
 
-static nh_analysis *ask_file(const char *path)
+static nh_analysis *ask_file_until(const char *path, double until)
 {
     nh_error error = {0};
-    nh_analyze_request request = {.system_path = path};
+    nh_analyze_request request = {.system_path = path, .until_given = until > 0};
     nh_options_default(&request.options);
+    if (until > 0) request.options.until = until;
     nh_analysis *r = nh_analysis_create(&request, &error);
     cr_assert_not_null(r, "%s: %s", path, error.what);
     return r;
 }
 
-static nh_analysis *ask(const char *text)
+static nh_analysis *ask_file(const char *path) { return ask_file_until(path, 0); }
+
+static nh_analysis *ask_until(const char *text, double until)
 {
     char path[SCRATCH];
     cr_assert(scratch_text(path, text));
-    nh_analysis *r = ask_file(path);
+    nh_analysis *r = ask_file_until(path, until);
     remove(path);
     return r;
 }
+
+static nh_analysis *ask(const char *text) { return ask_until(text, 0); }
 
 /* ---- motions of our own ---- */
 
@@ -373,8 +378,8 @@ Test(quadratures, car, WHOLE_ONLY)
  * evaluated with more digits, and the program says so. */
 Test(quadratures, digits_that_are_lost)
 {
-    nh_analysis *r = ask("name: half_plane\nparameters: [{name: k, value: 1.1}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
-                         "domain: {y: [0.5, 1.5]}\nlagrangian: (x'^2 + y'^2)/(2*y^2) - k*y\n");
+    nh_analysis *r = ask_until("name: half_plane\nparameters: [{name: k, value: 1.1}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
+                               "domain: {y: [0.5, 1.5]}\nlagrangian: (x'^2 + y'^2)/(2*y^2) - k*y\n", 8);
     size_t lost = 0, said = 0;
     for (size_t k = 0; k < r->count; k++) {
         const nh_drift *d = &r->found[k].drift;

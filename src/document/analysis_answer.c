@@ -20,7 +20,9 @@ typedef struct {
     const nh_analysis *r;
     nh_text *out;
     bool colour;
-    bool terse; /* the full answer does not fit the screen: long formulas and symmetries are left out */
+    /* what is left out where the full answer does not fit: SHORT: long formulas and symmetries; BARE: formulas with
+     * names for their parts as well; LIST: all sentences */
+    enum { FULL, SHORT, BARE, LIST } terse;
     bool all_proved;        /* every quantity */
     bool *written;          /* of each: was its formula? */
     const char **proof;     /* of each: "for all m, k", or the sentence that says how sure it is */
@@ -199,11 +201,18 @@ static void put_local(const screen *x)
     nh_free(local);
 }
 
+static bool has_parts(const screen *x, size_t k)
+{
+    for (size_t i = 0; i < x->list.parts; i++)
+        if (nh_depends(x->r->model->dag, x->list.formula[k], x->list.part[i].symbol)) return true;
+    return false;
+}
+
 static void put_quantity(const screen *x, size_t k)
 {
     const nh_analysis *r = x->r;
     const nh_current *f = &r->found[k];
-    bool written = !f->series && x->list.stands[k];
+    bool written = !f->series && x->list.stands[k] && !(x->terse >= BARE && has_parts(x, k));
     char *formula = written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL;
     x->written[k] = put_formula(x, k + 1, nh_current_label(r, f), formula,
                                 f->series ? "a series (--details)" : "a long formula (--details)");
@@ -220,7 +229,7 @@ static void put_quantities(const screen *x)
         s[k] = nh_current_words_of(x->r, &x->r->found[k], !x->terse, x->all_proved ? NULL : x->proof[k]);
     for (size_t k = 0, end; k < n; k = end) {
         for (end = k; end < n && (end == k || nh_current_words_agree(&s[k], &s[end])); end++) put_quantity(x, end);
-        nh_current_words_put(end - k, s + k, &text);
+        if (x->terse < LIST) nh_current_words_put(end - k, s + k, &text);
         say(x, end < 10 ? 3 : 4, &text);
     }
 }
@@ -456,9 +465,9 @@ void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
     x.written = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.written);
     for (size_t k = 0; k < r->count; k++) x.proof[k] = nh_analysis_answer_proof(r, &r->found[k]);
     write(&x);
-    if (nh_screen_count(nh_text_string(&text)) > NH_SCREEN_LINES) {
+    while (nh_screen_count(nh_text_string(&text)) > NH_SCREEN_LINES && x.terse < LIST) {
         nh_text_clear(&text);
-        x.terse = true;
+        x.terse++;
         write(&x);
     }
     nh_text_add(out, nh_text_string(&text));

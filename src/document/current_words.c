@@ -81,7 +81,8 @@ nh_current_words nh_current_words_of(const nh_analysis *r, const nh_current *f, 
 bool nh_current_words_agree(const nh_current_words *a, const nh_current_words *b)
 {
     bool plain = !strstr(a->what, " and ") && !strstr(b->what, " and ");
-    return !strcmp(a->name, b->name) && !strcmp(a->doc, b->doc) && !strcmp(a->how, b->how) && !strcmp(a->rest, b->rest) && !*a->of == !*b->of &&
+    return !strcmp(a->name, b->name) && !strcmp(a->doc, b->doc) && !strcmp(a->how, b->how) &&
+           !strcmp(a->rest, b->rest) && !*a->of == !*b->of &&
            !*a->what == !*b->what && (plain || !strcmp(a->what, b->what));
 }
 

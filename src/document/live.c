@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/escape.h"
 #include "document/export_code.h"
 #include "document/page.h"
 #include "integrals/fixed.h"
@@ -12,14 +13,18 @@ const char *nh_live_js_lacks(const nh_dag *dag, nh_ex e) { return nh_source_lack
 
 void nh_live_js_text(const char *text, nh_text *out)
 {
+    nh_text mended;
+    nh_text_init(&mended);
+    nh_utf8_mend(text, &mended);
     nh_text_add(out, "\"");
-    for (const char *c = text; *c; c++) {
+    for (const char *c = nh_text_string(&mended); *c; c++) {
         if ((unsigned char)*c < ' ') nh_text_addf(out, "\\u%04x", (unsigned char)*c);
         else if (strchr("\"\\", *c)) nh_text_addf(out, "\\%c", *c);
         else if (strchr("<>&]", *c)) nh_text_addf(out, "\\u%04x", (unsigned char)*c); /* ends no script */
         else nh_text_add_n(out, c, 1);
     }
     nh_text_add(out, "\"");
+    nh_text_clear(&mended);
 }
 
 static void put_number(double value, nh_text *out)

@@ -54,14 +54,30 @@ static void put_certainty(const nh_reduction *r, const nh_group *g, nh_text *out
                      g->jets->exact ? "" : ", by numbers");
 }
 
+/* "8 coordinates become 4, then 3; or 2 in one step." */
+static void put_sizes(const nh_reduction *r, nh_text *out)
+{
+    size_t f = r->kinetic->f;
+    nh_text_addf(out, "%zu coordinate%s", r->kinetic->m, r->kinetic->m == 1 ? "" : "s");
+    if (f) nh_text_addf(out, " with %zu constraint%s", f, f == 1 ? "" : "s");
+    for (size_t i = 0; i < r->stages; i++) {
+        const nh_reduction_stage *s = &r->stage[i];
+        bool other = nh_reduction_instead(r, i);
+        nh_text_addf(out, "%s %zu%s", !i ? " become" : other ? "; or" : ", then", s->shown->n,
+                     !other                           ? ""
+                     : s->kind == NH_STAGE_POINCARE ? " in one step"
+                                                      : " in another way");
+    }
+    nh_text_add(out, ". ");
+}
+
 static void group(const nh_reduction *r, bool colour, nh_text *out)
 {
     const nh_group *g = r->all ? r->all : r->group;
     size_t dimension = g->action.d + g->missing;
     nh_text words;
     nh_text_init(&words);
-    nh_text_addf(&words, "%zu coordinate%s, %zu constraint%s. ", r->kinetic->m, r->kinetic->m == 1 ? "" : "s",
-                 r->kinetic->f, r->kinetic->f == 1 ? "" : "s");
+    put_sizes(r, &words);
     if (!dimension) {
         nh_text_add(&words, "No symmetry of kinetic energy, potential and constraints together was found. ");
         if (!g->jets) nh_text_addf(&words, "They could not be counted: %s.", nh_reduction_not_counted(r->kinetic));
@@ -90,14 +106,12 @@ static void stages(const nh_reduction *r, nh_text *out)
         const nh_reduction_stage *s = &r->stage[i];
         nh_text words;
         nh_text_init(&words);
-        nh_text_addf(&words, "%s: %s %s.", nh_reduction_stage_title(r, i), nh_reduction_stage_kind(s), s->group);
-        nh_screen_say(out, 0, &words);
-        nh_text_init(&words);
-        nh_text_add(&words, "Left: ");
+        nh_text_addf(&words, "%s: divide by %s. Left: ", nh_reduction_stage_title(r, i), s->group);
         for (size_t j = 0; j < s->shown->n; j++)
             nh_text_addf(&words, "%s%s", j ? ", " : "", nh_name_of(r->kinetic->dag, s->shown->x[j]));
         nh_text_add(&words, s->shown->n ? "." : "a point: only the velocities of the group move.");
-        nh_screen_say(out, 2, &words);
+        nh_sheet_paragraph(0, NH_SCREEN_HANG, nh_text_string(&words), out);
+        nh_text_clear(&words);
     }
     if (!r->stages) nh_text_add(out, "No reduction was possible.\n");
 }
@@ -115,7 +129,7 @@ static void momenta(const nh_reduction *r, bool colour, nh_text *out)
         nh_screen_put(out, colour, 2, nh_arena_printf(r->arena, "%s = ", nh_reduction_momentum_name(r, m)), value,
                       most_lines, NULL);
         nh_free(value);
-        nh_text_addf(&words, "%s ", nh_reduction_momentum_kind(m));
+        nh_text_add(&words, m->moving ? "energy less the momentum of " : "momentum of ");
         put_field(r->kinetic, m->field, &words);
         nh_text_addf(&words, "; %s%s%s.", m->proof.proved ? "proved" : "to rounding",
                      m->proof.all_parameters ? "" : nh_facts_holds(r->kinetic->model, &m->proof, false),

@@ -2,139 +2,174 @@
 
 /* docs/glossary.md has the same words in the same order. */
 static const nh_glossary_entry entries[] = {
-    {"system", "What a system file describes: coordinates, parameters, Lagrangian, forces, constraints; or bodies "
-               "and joints."},
-    {"constraint submanifold", "Times, positions and the velocities that the constraints allow."},
-    {"velocities", "Coordinates on the fibres of the constraint submanifold: some of the coordinates' velocities, "
-                   "or quasi-velocities."},
-    {"chart", "Positions with one choice of velocities."},
-    {"distribution", "The canonical distribution: virtual displacements that the constraints allow. [Gamma,Z] may "
-                     "leave it."},
-    {"constraint semispray", "Gamma, the vector field of the equations of motion on the constraint submanifold."},
-    {"Gamma", "The constraint semispray; along it a function has the rate of change Gamma(f)."},
-    {"bracket", "[X,Y], the field along which a function f has the rate of change X(Y(f)) - Y(X(f))."},
-    {"structure constants", "C of the Lie algebra of the group that nhsym reduce divides out, with [e_a,e_b] = "
-                            "-C^c_{a,b} e_c for the brackets of its fields."},
-    {"equations of motion", "On the constraint submanifold: the constraints are eliminated, nothing else."},
-    {"reduced equations", "The equations that remain when the group is divided out as well (nhsym reduce)."},
-    {"first integral", "A function of time, coordinates and velocities that every motion keeps constant: "
-                       "Gamma(Phi) = 0."},
-    {"conserved quantity", "A first integral; the two mean the same."},
-    {"current", "A first integral Phi, together with the field Z whose symmetry gives it: Gamma(Phi) = 0."},
-    {"trivial", "Of a current: a constant on the constraint submanifold.  Its field is a multiple of Gamma."},
-    {"momentum", "Of a coordinate x: dL/dx'.  Of a field of the group: the sum of its components times these "
-                 "(nhsym reduce)."},
-    {"constraint symmetry", "A field Z in the canonical distribution with L_Z(alpha) = 0 on it; its current is "
-                            "Phi = alpha(Z)."},
-    {"symmetry", "The Chetaev field Z in the canonical distribution with L_Z(alpha) = 0 on it; its current is Phi "
-                 "= alpha(Z)."},
-    {"case", "Z is a symmetry of the equations of motion, [Gamma,Z] = a Gamma (case 1); [Gamma,Z] = a Gamma + b Z "
-             "(case 2); neither (case 3)."},
-    {"projectable", "The components of Z along time and coordinates do not depend on velocities.  Whether Z is a "
-                    "symmetry of the equations of motion is another question."},
-    {"space of symmetries", "Constraint symmetries are linear in their currents; those that are projectable, of case "
-                            "1, or have [Gamma,Z] in the "
-                            "canonical distribution form subspaces (--equations)."},
-    {"symmetry of the equations", "A field S with [Gamma,S] = a Gamma: a point symmetry acts on time and positions, a "
-                                  "dynamical one has components that "
-                                  "depend on velocities (--equations)."},
-    {"closure", "The fields Gamma, U_1, .. with all their brackets.  What it leaves constant are the currents with "
-                "[Gamma,Z] in the canonical "
-                "distribution; its rank bounds their number (--equations)."},
-    {"multiplier", "Chetaev's multiplier mu_a, one for each constraint: dL/dq - (dL/dv)' = mu_a df^a/dv, so the force "
-                   "that keeps constraint a is minus mu_a times its derivatives by the velocities."},
+    {"system", "What a system file describes: coordinates, parameters, Lagrangian, forces and constraints, or "
+               "bodies and joints."},
+    {"constraint submanifold",
+     "All states (t, q, v) that satisfy the constraints: times, positions, and the velocities that the "
+     "constraints allow."},
+    {"velocities", "The independent velocities that describe a motion: some of the coordinates' velocities, or "
+                   "quasi-velocities."},
+    {"quasi-velocity",
+     "A combination of the coordinates' velocities that is used as an independent velocity, such as the "
+     "speed along a blade."},
+    {"chart", "A choice of independent velocities. Another choice may be needed where one breaks down, as y' = "
+              "x'*tan(phi) does at cos(phi) = 0."},
+    {"distribution", "The canonical distribution: the virtual displacements that the constraints allow. [Gamma,Z] need "
+                     "not lie in it."},
+    {"constraint semispray",
+     "The vector field Gamma of the equations of motion, on the states that satisfy the constraints."},
+    {"Gamma", "The vector field of the equations of motion. A function f changes along motions at the rate "
+              "Gamma(f)."},
+    {"bracket", "The bracket [X,Y] of two vector fields. A function f changes along it at the rate X(Y(f)) - Y(X(f))."},
+    {"structure constants",
+     "The numbers C that define the group which nhsym reduce divides out: [e_a,e_b] = -C^c_{a,b} e_c for "
+     "the brackets of its fields."},
+    {"equations of motion",
+     "The equations for the independent velocities: the constraints are eliminated, and nothing else."},
+    {"reduced equations", "The equations that remain after the group is divided out (nhsym reduce)."},
+    {"first integral",
+     "A function of time, coordinates and velocities that stays constant along every motion: Gamma(Phi) = "
+     "0."},
+    {"conserved quantity", "The same as a first integral."},
+    {"current", "A first integral Phi together with the field Z, the symmetry that gives it."},
+    {"E",
+     "The energy v dL/dv - L. It is conserved where neither the Lagrangian nor the constraints depend on time and "
+     "no other force does work."},
+    {"trivial", "A current is trivial if it is the same number at all states. Its field is a multiple of Gamma."},
+    {"momentum", "The momentum of a coordinate x is dL/dx'. The momentum of a field of the group is the sum of its "
+                 "components times these (nhsym reduce)."},
+    {"angular momentum", "The conserved quantity of a rotation; the momentum of an angle."},
+    {"Laplace-Runge-Lenz vector",
+     "In the potential -k/r the vector A = p x (q x p)/m - k q/r is conserved. It points to the "
+     "pericentre, and its length is k times the eccentricity."},
+    {"Fradkin's tensor",
+     "In the potential k r^2/2 the tensor T_ij = m v_i v_j + k x_i x_j is conserved. Its principal axes "
+     "are those of the ellipse."},
+    {"constraint symmetry",
+     "A field Z in the canonical distribution with L_Z(alpha) = 0 on it. Its current is Phi = alpha(Z)."},
+    {"symmetry", "A change that maps motions to motions, such as a shift in time, a shift or a rotation. Here it is "
+                 "the Chetaev field Z in the canonical distribution with L_Z(alpha) = 0 on it; its current is Phi = "
+                 "alpha(Z)."},
+    {"Noether", "Noether's theorem: each symmetry of the action gives a conserved quantity. A shift in time gives "
+                "the energy, a shift the momentum, a rotation the angular momentum."},
+    {"Z", "The field whose symmetry gives a current."},
+    {"boost", "The change to a frame that moves evenly: x to x + c t."},
+    {"case", "How Z relates to the equations of motion. Case 1: [Gamma,Z] = a Gamma, so that Z is a symmetry of "
+             "them. Case 2: [Gamma,Z] = a Gamma + b Z. Case 3: neither."},
+    {"projectable", "Z is projectable if its components along time and coordinates do not depend on velocities. This "
+                    "does not decide whether Z is a symmetry of the equations of motion."},
+    {"space of symmetries",
+     "Sums of constraint symmetries are constraint symmetries, because a symmetry depends linearly on its "
+     "current. Those that are projectable, of case 1, or have [Gamma,Z] in the canonical distribution "
+     "form subspaces (--equations)."},
+    {"symmetry of the equations",
+     "A field S with [Gamma,S] = a Gamma. A point symmetry acts on time and positions; the components of "
+     "a dynamical one depend on velocities (--equations)."},
+    {"closure", "The fields Gamma, U_1, .. with all their brackets. The functions that all of them keep constant are "
+                "the currents with [Gamma,Z] in the canonical distribution; its rank bounds their number "
+                "(--equations)."},
+    {"multiplier", "Chetaev's multiplier mu_a of constraint a: dL/dq - (dL/dv)' = mu_a df^a/dv. The force that keeps "
+                   "constraint a is minus mu_a times the derivatives of f^a by the velocities."},
     {"reaction", "The force of the constraints along each coordinate: minus the sum over the constraints a of mu_a "
                  "times the derivative of constraint a by the velocity of the coordinate."},
-    {"mu", "mu_a: Chetaev's multiplier of constraint a; in nhsym reduce the momentum of the group along its "
-           "field e_a, in the body frame."},
-    {"degree", "Of a polynomial in the velocities, whatever its coefficients are."},
-    {"local", "The current, field or density changes when an angle goes once around: it is defined on a part of "
-              "the configuration space only."},
-    {"region", "Where a current holds that jumps, or ends, where motions cross a kink or a cut of |x|, sqrt(x^2), "
-               "atan2, ...  Such a current is not counted."},
-    {"independent", "Its gradient is not a combination of the gradients of the currents before it."},
+    {"mu", "Chetaev's multiplier mu_a of constraint a. In nhsym reduce it is the momentum of the group along "
+           "its field e_a, in the body frame."},
+    {"degree", "The highest power of the velocities in a polynomial, whatever its coefficients are."},
+    {"local", "A current, field or density is local if it changes when an angle makes a full turn. It is defined "
+              "on a part of the configuration space."},
+    {"region", "The part of the states in which a current holds that jumps or ends, because motions cross a kink or "
+               "a cut of |x|, sqrt(x^2), atan2, ... Such a current is not counted."},
+    {"independent", "A current is independent of others if it is not a function of them: its gradient is not a "
+                    "combination of theirs."},
     {"holonomic", "A constraint between positions, as it was given."},
-    {"integrable", "The velocity constraints are integrable: as many functions of time and positions stay "
-                   "constant."},
-    {"partly", "Partly integrable: some combinations of the constraints hold a function of time and positions "
-               "constant, others do not."},
-    {"nonholonomic", "No function of time and positions is held constant by the constraints: every place can be "
-                     "reached."},
-    {"semiholonomic", "eps'_l(g) = 0 for a constraint that is linear or affine in the velocities: it is "
-                      "integrable.  Not defined for nonlinear constraints."},
-    {"hidden", "Hidden holonomic constraints: functions that the constraints alone keep constant, found by "
-               "brackets of the allowed directions."},
-    {"growth", "Growth vector: the ranks of D, D + [D,D], ..., where D are the allowed directions."},
-    {"group", "The symmetries that leave kinetic energy, potential and constraints invariant: fields on "
+    {"integrable", "The velocity constraints are integrable if each follows from a function of time and positions that "
+                   "stays constant."},
+    {"partly", "The constraints are partly integrable if some of their combinations keep a function of time and "
+               "positions constant, and others do not."},
+    {"nonholonomic", "The constraints are nonholonomic if they keep no function of time and positions constant: every "
+                     "place can be reached."},
+    {"semiholonomic",
+     "A constraint that is linear or affine in the velocities is semiholonomic if eps'_l(g) = 0: it is "
+     "integrable. This is not defined for nonlinear constraints."},
+    {"hidden", "Hidden holonomic constraints are functions of time and positions that the constraints alone keep "
+               "constant. They are found by brackets of the allowed directions."},
+    {"growth", "The growth vector has the ranks of D, D + [D,D], ..., where D are the allowed directions."},
+    {"group", "The symmetries that leave kinetic energy, potential and constraints unchanged: fields on "
               "configuration space (nhsym reduce)."},
     {"algebra", "The infinitesimal form of a group: its fields and their brackets."},
-    {"generator", "One basis element of the algebra of a group."},
-    {"zeta", "zeta_a: velocity of the group along its field e_a, in the body frame (nhsym reduce)."},
-    {"shape", "Coordinates on a slice through the orbits of a group; the reduced equations are written in them."},
-    {"stage of a reduction", "The division by one group: Chaplygin's, a second one by further symmetry, or by the "
-                             "whole group at once (Lagrange-d'Alembert-Poincare)."},
-    {"Chaplygin", "A system whose group's orbits and constraint distribution are complementary: together they "
-                  "span every direction and share none.  It reduces to the shape space."},
-    {"density", "Of a measure that the motions leave invariant."},
+    {"generator", "One of the basis fields of the algebra of a group."},
+    {"zeta", "The velocity zeta_a of the group along its field e_a, in the body frame (nhsym reduce)."},
+    {"shape", "Coordinates on a slice that crosses the orbits of a group. The reduced equations are written in "
+              "them."},
+    {"stage of a reduction",
+     "The division by one group: Chaplygin's, a second one by further symmetry, or the division by the "
+     "whole group at once (Lagrange-d'Alembert-Poincare)."},
+    {"Chaplygin", "In a Chaplygin system every velocity splits uniquely into an allowed one and one of a group motion. "
+                  "It reduces to the shape space."},
+    {"density", "The density exp(sigma) of a volume that the motions preserve (an invariant measure)."},
     {"question", "What a user wants to know: system, settings, initial state, limits."},
     {"problem", "A question whose files have been read."},
-    {"analysis file", "An ansatz, unknowns and figures for one system, as text."},
+    {"analysis file", "A text file with an ansatz, unknowns and figures for one system."},
     {"ansatz", "The functions that a fit combines into currents."},
     {"family", "A group of functions of an ansatz, such as the polynomials up to a degree."},
     {"column", "One function of an ansatz: one column of the matrix of the fit."},
-    {"pencil", "A matrix that depends on one unknown as a polynomial.  Where its rank falls lie the "
-               "frequencies of an ansatz, or special values of a parameter (nhsym classify)."},
-    {"stage of a search", "One ansatz among those that the program tries one after another."},
-    {"verdict", "How an analysis answers: FOUND, NONE or UNDECIDED."},
-    {"FOUND", "Currents were found and each is proved, or certified to at least 50 digits."},
+    {"pencil", "A matrix whose entries are polynomials in one unknown. The unknown has the frequencies of an "
+               "ansatz, or special values of a parameter (nhsym classify), where the rank of the matrix falls."},
+    {"stage of a search", "One ansatz of the sequence that the program tries."},
+    {"verdict", "The answer of an analysis: FOUND, NONE or UNDECIDED."},
+    {"FOUND", "Currents were found, and each is proved, or certified to at least 50 digits."},
     {"NONE", "No combination of the ansatz is conserved: every generalized singular value is far above rounding, "
              "and nothing was left out."},
-    {"UNDECIDED", "Values between rounding and significance: take more samples or another ansatz; a current is "
-                  "given with its digits."},
-    {"search", "What tries one ansatz after another; it ends complete, exhausted or cut."},
-    {"complete",
-     "Of a search: as many independent currents are found as can exist locally, so that there cannot be more.  "
-     "\"Complete to degree 4\" says that no integral polynomial in the velocities of degree at most 4 is missing: "
-     "nhsym explain completeness."},
-    {"exhausted", "A search that tried all that there was to try, but for stages that are too large: the list of "
-                  "stages names the option that brings them in.  There may be currents of another kind."},
-    {"cut", "A search that a limit of work or time ended before all was tried (exit code 5)."},
+    {"UNDECIDED", "Some singular values lie between rounding and significance: more samples or another ansatz may "
+                  "decide. A current is given with its digits."},
+    {"search", "The search tries a sequence of ansatz spaces. It ends complete, exhausted, or cut off by a limit."},
+    {"complete", "A search is complete if as many independent currents are found as can exist locally. \"Complete to "
+                 "degree 4\" says that no integral polynomial in the velocities of degree at most 4 is missing: nhsym "
+                 "explain completeness."},
+    {"exhausted", "A search is exhausted if every stage was tried except those larger than the limits; the list of "
+                  "stages names the option that includes them. Currents of another kind may exist."},
+    {"cut", "A limit of work or time ended the search before all was tried (exit code 5)."},
     {"further integral",
-     "Polynomial in the velocities and a function of the currents found, so that it is not counted.  The products of "
-     "the currents do not give it; without it the list of integrals of its degree would not be complete."},
+     "A polynomial in the velocities that is a function of the currents found, so that it is not counted. "
+     "Products of the currents do not give it; without it the list of integrals of its degree would not "
+     "be complete."},
     {"completeness",
      "Every integral that is polynomial in the velocities up to a degree, whatever functions its "
-     "coefficients are, is a polynomial in the currents found.  It is proved by counting: an upper bound (power "
-     "series modulo a prime) and a lower one (products of the currents) agree.  Integrals of other kinds, and "
-     "those of higher degree, are not excluded.  Equations that are defined piece by piece are counted where the "
-     "domain lies, and the report says where."},
+     "coefficients are, is a polynomial in the currents found. It is proved by counting: an upper bound "
+     "(power series modulo a prime) and a lower one (products of the currents) agree. Integrals of other "
+     "kinds, and those of higher degree, are not excluded. Equations that are defined piece by piece are "
+     "counted where the domain lies, and the report says where."},
     {"proved", "The rate of change is zero as an exact expression."},
     {"certified", "The rate of change is zero to at least 50 digits in ball arithmetic."},
-    {"residual", "The rate of change of a current at points that were not used to find it, relative to the size "
-                 "of its terms: rounding is near 10^-16."},
-    {"gap", "The smallest nonzero singular value over the largest vanishing one.  Below 1000 nothing is decided."},
-    {"formulation", "The equations that an integrator solves: on the constraint submanifold, or in all "
+    {"residual", "The rate of change of a current at points that were not used to find it, relative to the size of "
+                 "its terms. Rounding gives about 10^-16."},
+    {"gap", "The smallest nonzero singular value divided by the largest vanishing one. Below 1000 nothing is "
+            "decided."},
+    {"null value", "A singular value that is zero up to rounding. Each belongs to a combination of the columns that is "
+                   "conserved."},
+    {"formulation", "The equations that an integrator solves: those in independent velocities, or those in all "
                     "coordinates with multipliers."},
-    {"integration plan", "A method with its tolerance or step, and the velocities that it is used in."},
-    {"closed subsystem", "The states on which the wanted quantities depend; only these are integrated."},
+    {"integration plan", "A method with its tolerance or step, and the velocities in which it is used."},
+    {"closed subsystem", "The states on which the wanted quantities depend. Only these are integrated."},
     {"observable", "A quantity that is followed along a motion."},
-    {"safeguard", "What ends or flags a motion near a singular place."},
-    {"validation", "A current followed along computed motions."},
+    {"safeguard", "A check that ends or flags a motion near a singular place."},
+    {"validation", "The check of a current along computed motions."},
     {"drift", "The largest change of a current along a computed motion, relative to the size of its terms."},
-    {"benchmark", "Integrators compared on one motion: error against cost (nhsym benchmark)."},
-    {"robustness map", "Where in a plane of parameters integrators are accurate, flagged, detected or undetected "
-                       "(nhsym benchmark --robustness)."},
-    {"accurate", "Of a measured motion: the error is as small as expected for its tolerance or step, and no "
-                 "safeguard triggered.  In JSON: right."},
-    {"flagged", "Accurate, and a safeguard triggered: the pivot of the chart; in maps also the drift of a "
-                "current, or a run at a tenth of the tolerance.  In JSON: warned."},
-    {"detected", "Not accurate, or ended early, and a safeguard says so.  In JSON: caught."},
-    {"undetected", "Not accurate, and no safeguard triggered.  What counts as accurate: options benchmark_error, "
-                   "benchmark_far and benchmark_fixed.  In JSON: wrong."},
+    {"benchmark", "A comparison of integrators on one motion: error against cost (nhsym benchmark)."},
+    {"robustness map", "A map of a plane of parameters that shows where integrators are accurate, flagged, detected or "
+                       "undetected (nhsym benchmark --robustness)."},
+    {"accurate", "A measured motion is accurate if its error is as small as expected for its tolerance or step, and "
+                 "no safeguard triggered. In JSON: right."},
+    {"flagged", "Accurate, but a safeguard triggered: the pivot of the chart; in maps also the drift of a current, "
+                "or a run at a tenth of the tolerance. In JSON: warned."},
+    {"detected", "Not accurate, or ended early, and a safeguard says so. In JSON: caught."},
+    {"undetected", "Not accurate, and no safeguard triggered. The options benchmark_error, benchmark_far and "
+                   "benchmark_fixed say what counts as accurate. In JSON: wrong."},
     {"timeout", "A motion that was ended because it took too long, or too many steps."},
-    {"scan", "Numbers of a system at every point of a grid of parameter values, and where they jump (nhsym scan)."},
-    {"special value", "A value of a parameter at which there is more than for almost all values beside it."},
-    {"unit", "Points of a scan that are computed one after another; its file is written completely or not at all."},
+    {"scan", "Numbers of a system at every point of a grid of parameter values, and the values where they jump "
+             "(nhsym scan)."},
+    {"special value", "A value of a parameter for which there is more than for almost all values near it."},
+    {"unit", "Points of a scan that are computed one after another. Its file is written completely or not at all."},
     {"work", "Operations counted in units that do not depend on the machine."},
 };
 

@@ -194,7 +194,7 @@ class Analysis(Result):
     >>> analysis
     <Analysis of sleigh: FOUND, 5 independent currents of at most 5, search complete>
     >>> print(analysis)
-    Chaplygin sleigh   with m = 2, a = 1, k = 2
+    Chaplygin sleigh   m = 2, a = 1, k = 2
     FOUND: 5 independent currents of at most 5 (search complete)
       Phi1 = -m*(a^2*k^2*phi'^2 + (x'*cos(phi) + y'*sin(phi))^2)/2   minus the energy; proved
     ...

@@ -158,6 +158,19 @@ def shortened(lines, rest):
     return "\n".join(lines if len(lines) <= SHORT else lines[:SHORT - 1] + ["... %d more lines: %s" % (len(lines) - SHORT + 1, rest)])
 
 
+class Page:
+    """A page of the program that a notebook shows in a frame of its own."""
+
+    def __init__(self, text: str, name: str, height: int) -> None:
+        self.text, self._name, self._height = text, name, height
+
+    def _repr_html_(self) -> str:
+        return '<iframe srcdoc="%s" style="width:100%%;height:%dpx;border:1px solid #ccc"></iframe>' % (html.escape(self.text, quote=True), self._height)
+
+    def __repr__(self) -> str:
+        return "<Page of %s: %d pixels high>" % (self._name, self._height)
+
+
 @explains_arguments
 class Result(Record):
     """A result of the library.  `text`, `html`, `latex` are the documents of the program; `json` is parsed; `print` shows a dozen lines.
@@ -166,7 +179,7 @@ class Result(Record):
     --------
     >>> result = nhsym.system("sleigh").verify("m*v")
     >>> print(result)
-    Chaplygin sleigh   with m = 2, a = 1, k = 2
+    Chaplygin sleigh   m = 2, a = 1, k = 2
     No: this is not conserved.
     <BLANKLINE>
     The question
@@ -237,10 +250,29 @@ class Result(Record):
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
 
+    def live(self, height: int = 900) -> Page:
+        """The page in the cell of a notebook, where its sliders, plots and moving picture work.
+
+        Parameters
+        ----------
+        height : int
+            Of the cell, in pixels.
+
+        Returns
+        -------
+        Page
+
+        Examples
+        --------
+        >>> nhsym.system("sleigh").simulate(until=1).live()
+        <Page of sleigh: 900 pixels high>
+        """
+        return Page(self.html, self._problem.name, height)
+
     def _repr_html_(self) -> str:
         if HTML not in self._formats:
             return "<pre>%s</pre>" % html.escape(self.text)
-        return '<iframe srcdoc="%s" style="width:100%%;height:36em;border:1px solid #ccc"></iframe>' % html.escape(self.html, quote=True)
+        return self.live(580)._repr_html_()
 
     def __str__(self) -> str:
         return shortened(self.text.rstrip().split("\n"), "its attribute `text`")
