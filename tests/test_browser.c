@@ -228,12 +228,14 @@ Test(browser, plots_and_bodies_answer, PLAIN_ONLY)
                                  "at('pointermove',100);var hover=s.querySelector('line.hover').getAttribute('visibility');"
                                  "at('pointerdown',100);at('pointermove',200);at('pointerup',200);var zoomed=!$('#unzoom').hidden;$('#unzoom').click();"
                                  "var curves=function(){return $('svg.live g[clip-path]').children.length;},all=curves();$('button.lg').click();"
-                                 "var fewer=curves();slide($('.sl input'),1.5);setTimeout(function(){leave({hover:hover,zoomed:zoomed,unzoomed:$('#unzoom').hidden,all:all,fewer:fewer,hash:location.hash});},300);");
+                                 "var fewer=curves();slide($('.sl input'),1.5);setTimeout(function(){leave({hover:hover,zoomed:zoomed,unzoomed:$('#unzoom').hidden,all:all,fewer:fewer,hash:location.hash,"
+                                 "frames:new DOMParser().parseFromString(nhsymLive.movie(),'image/svg+xml').querySelectorAll('svg>g>animate').length});},300);");
     if (seen) {
         cr_expect_str_eq(cJSON_GetStringValue(of(seen, "hover")), "visible");
         cr_expect(cJSON_IsTrue(of(seen, "zoomed")) && cJSON_IsTrue(of(seen, "unzoomed")));
         cr_expect_eq((int)cJSON_GetNumberValue(of(seen, "fewer")), (int)cJSON_GetNumberValue(of(seen, "all")) - 1);
         cr_expect_str_eq(cJSON_GetStringValue(of(seen, "hash")), "#A=1.5");
+        cr_expect_eq((int)cJSON_GetNumberValue(of(seen, "frames")), 80, "the picture as an animation");
     }
     bool skipped = !seen;
     cJSON_Delete(seen);

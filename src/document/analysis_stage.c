@@ -8,7 +8,7 @@
 #include "document/current_words.h"
 #include "document/live.h"
 
-enum { most_named = 6 }; /* parameters */
+enum { room = 24 }; /* characters, for the names of parameters */
 
 /* The tracks of the analysis, then the multipliers: the lines of its time series. */
 static const nh_observables *with_multipliers(const nh_analysis *r)
@@ -36,12 +36,25 @@ static const char *joined(nh_arena *arena, const char *a, const char *b)
     return nh_arena_printf(arena, "%s%s%s", a, *b ? " " : "", b);
 }
 
+/* "for all m, k", and under which conditions; many names are not told. */
+static const char *brief_proof(const nh_analysis *r, const nh_current *f)
+{
+    static const char *const conditions[] = {" with ", ", real where "};
+    static const char all[] = " for all ";
+    const char *sure = nh_analysis_answer_proof(r, f), *rest = sure + strlen(sure);
+    for (size_t i = 0; i < sizeof conditions / sizeof *conditions; i++) {
+        const char *at = strstr(sure, conditions[i]);
+        if (at && at < rest) rest = at;
+    }
+    bool listed = f->proof.all_parameters && !strncmp(sure, all, sizeof all - 1);
+    if (!listed || (size_t)(rest - sure) <= room) return sure;
+    return nh_arena_printf(r->arena, "for all parameter values%s", rest);
+}
+
 static nh_stage_row row_of(const nh_analysis *r, const nh_current *f)
 {
     nh_current_words words = nh_current_words_of(r, f, true, NULL);
-    const char *sure = nh_analysis_answer_proof(r, f);
-    if (f->proof.all_parameters && !strncmp(sure, " for all ", 9) && r->system->parameters > most_named)
-        sure = "for all parameter values";
+    const char *sure = brief_proof(r, f);
     nh_stage_row row = {.name = joined(r->arena, words.name, words.of),
                         .doc = f->independence == NH_DEPENDENT ? "follows from the others" : words.doc,
                         .from = joined(r->arena, words.how, words.what),

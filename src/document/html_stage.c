@@ -182,6 +182,8 @@ static void controls(nh_html_writer *w, const nh_stage *s, bool live)
     if (!live) put_why(w, s->live);
     nh_html_add(w, "</span><button class=\"lnk\" id=\"csv\" type=\"button\">CSV</button><button class=\"lnk\" "
                    "type=\"button\" data-copy=\"#command\">copy as command</button>");
+    if (s->series->shapes)
+        nh_html_add(w, "<button class=\"lnk\" id=\"movie\" type=\"button\">animation as SVG</button>");
     if (live)
         nh_html_add(w, "<button class=\"lnk\" id=\"reset\" type=\"button\" hidden=\"hidden\">back to the first "
                        "values</button>");

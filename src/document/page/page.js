@@ -272,15 +272,30 @@ function nhsymPage(model) {
   if ($('#tol')) $('#tol').onchange = e => { tol = +e.target.value; change(); };
 
   // ---- to take away ----
+  function download(text, type, name) {
+    const a = document.createElement('a');
+    a.href = URL.createObjectURL(new Blob([text], {type})); a.download = name; a.click();
+    URL.revokeObjectURL(a.href);
+  }
+  // the picture as it is turned and zoomed, in frames that show one after another; colours are those of the page
+  function movie() {
+    const colours = getComputedStyle(root), names_ = ['bg', 'fg', 'soft', 'faint', 'stage', 'grid', 'c1', 'c2', 'c3', 'c4', 'c5', 'c6'], frames = 80, seconds = Math.min(20, Math.max(4, Math.abs(motion.end - begin)));
+    const svg = $('svg.scene'), seen = [];
+    for (let i = 0; i < frames; i++) { const time = begin + (motion.end - begin) * i / (frames - 1); scene.frame(time, Float64Array.from(motion.at(time)), null); seen.push(scene.parts()); }
+    cursors();
+    const turn = (inner, i) => `<g visibility="hidden"><animate attributeName="visibility" values="visible;hidden" keyTimes="0;${1 / frames}" calcMode="discrete" begin="${(i * seconds / frames).toFixed(3)}s" dur="${seconds}s" repeatCount="indefinite"/>${inner}</g>`;
+    return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${svg.getAttribute('viewBox')}"><title>${model.title.replace(/[<&]/g, ' ')}</title><style>svg{${names_.map(k => `--${k}:${colours.getPropertyValue('--' + k).trim()}`).join(';')}}.tick{fill:none;stroke:var(--grid)}text{font:11px sans-serif;fill:var(--faint)}</style>` +
+      `<rect width="100%" height="100%" fill="var(--stage)"/>${seen[0].still}${seen.map((s, i) => turn(s.moving, i)).join('')}</svg>`;
+  }
+  if ($('#movie')) $('#movie').onclick = () => { play(false); download(movie(), 'image/svg+xml', model.name + '.svg'); };
   $('#csv').onclick = () => {
     const columns = model.tracks.map((k, i) => [k, i]).filter(([k]) => k.kind !== 'shape'), lines = [['t', ...columns.map(([k]) => k.name), ...(live ? model.currents.map(c => c.name) : [])].join(',')];
     for (let i = 0; i <= 500; i++) { const time = begin + (motion.end - begin) * i / 500, v = motion.at(time); lines.push([time, ...columns.map(([, j]) => v[j]), ...(live && nq ? motion.quantities(time) : [])].join(',')); }
-    const a = document.createElement('a');
-    a.href = URL.createObjectURL(new Blob([lines.join('\n') + '\n'], {type: 'text/csv'})); a.download = model.name + '.csv'; a.click();
-    URL.revokeObjectURL(a.href);
+    download(lines.join('\n') + '\n', 'text/csv', model.name + '.csv');
   };
   const said = (b, text) => { const old = b.textContent; b.textContent = text; setTimeout(() => { b.textContent = old; }, 1200); };
   for (const b of $$('[data-copy]')) b.onclick = () => { const text = b.dataset.copy[0] === '#' ? $(b.dataset.copy).textContent : b.dataset.copy; (navigator.clipboard ? navigator.clipboard.writeText(text) : Promise.reject()).then(() => said(b, 'copied'), () => prompt('copy:', text)); };
+  if (matchMedia('(max-width: 700px)').matches && $('.ctl')) $('.ctl').open = false;
   const stage = $('#stage');
   $$('.still', document).forEach(e => e.remove());
   const scene = stage && model.shapes.length ? nhsymScene(stage, model, {make, $, $$}) : null;
@@ -290,7 +305,7 @@ function nhsymPage(model) {
   new ResizeObserver(() => { draw(); if (scene) scene.motion(motion); cursors(); }).observe(document.body);
   addEventListener('beforeprint', () => { play(false); draw(); cursors(); });
   play(!paused && !matchMedia('(prefers-reduced-motion: reduce)').matches);
-  return {set, seek, zoomTo, play, now, get motion() { return motion; }, get time() { return t; }};
+  return {set, seek, zoomTo, play, movie, now, get motion() { return motion; }, get time() { return t; }};
 }
 
 // What every page has: colours, contents, parts that scroll, folds that are open on paper.

@@ -217,5 +217,7 @@ function nhsymScene(stage, model, tools) {
   const ghost = make('g', {opacity: .35}, svg), body = make('g', {'stroke-linejoin': 'round', 'stroke-linecap': 'round'}, svg), caption = make('text', {x: 12, class: 'note'}, svg);
   const fit = space ? fitSpace : fitPlane;
   function frame(time, v, ghostly) { last = [time, v, ghostly]; (space ? frameSpace : framePlane)(time, v, ghostly); }
-  return {motion(m) { size(); sample(m); if (!user) fit(); }, frame, space};
+  // for an animation in one file: what stays, and what moves; where the picture follows a body everything moves
+  const parts = () => ({still: follow ? '' : ground.outerHTML + whole.outerHTML + caption.outerHTML, moving: (follow ? ground.outerHTML + whole.outerHTML : '') + body.outerHTML});
+  return {parts, motion(m) { size(); sample(m); if (!user) fit(); }, frame, space};
 }
