@@ -106,6 +106,11 @@ done >>"$offences"
 # ---- the pages name files that are there ----
 grep -noE '`(src|tests|docs|systems|analyses)/[A-Za-z0-9_/.-]+\.[a-z0-9]+`' README.md docs/*.md | tr -d '`' | grep -v '/[A-Z]*[._]' |
     while IFS=: read -r page line file; do [ -e "$file" ] || echo "$page:$line: $file is not there"; done >>"$offences"
+grep '^| `src/[a-z]*` |' docs/architecture.md | tr -d ' `' | cut -d '|' -f 2 | while read -r folder; do
+    grep "^| .$folder. |" docs/architecture.md | cut -d '|' -f 3 | grep -o '`[a-z0-9_]*`' | tr -d '`' | while read -r module; do
+        ls "$folder" | grep -q "^$module[._]\|$module[.]" || echo "docs/architecture.md: $folder has no $module"
+    done
+done >>"$offences"
 
 # ---- a page per function, 500 lines per file ----
 awk -v most_lines=60 -v most_file=500 '
