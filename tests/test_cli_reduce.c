@@ -197,7 +197,7 @@ Test(cli_reduce, around_singular_angles, PLAIN_ONLY)
                  interval[i]);
         write_here(&p, "body.yaml", text);
         finished f = reduce(&p, (char *[]){"body.yaml"}, 1);
-        cr_expect(f.code == 0 && strstr(f.out, "form the group SO(3)"), "%s: %s%s", interval[i], f.out, f.err);
+        cr_expect(f.code == 0 && strstr(f.out, "SO(3), of dimension 3"), "%s: %s%s", interval[i], f.out, f.err);
         finished_clear(&f);
     }
     place_clear(&p);

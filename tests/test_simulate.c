@@ -414,7 +414,8 @@ Test(simulate, pictures_are_curves_though_tables_are_short)
     finished f = run_shell(&p, "$N simulate spring.yaml --initial 'x=1' --until 3 --step 1.5 --svg a.svg --csv a.csv -q; cat a.csv; echo; cat a.svg");
     char *svg = strstr(f.out, "<svg");
     cr_assert(f.code == 0 && svg, "%s", f.err);
-    cr_expect(occurrences(svg, 'L') > 300, "%zu corners", occurrences(svg, 'L'));
+    /* points that a quarter of a pixel does not tell from the line are left out */
+    cr_expect(occurrences(svg, 'L') > 25, "%zu corners", occurrences(svg, 'L'));
     *svg = 0;
     cr_expect_eq(occurrences(f.out, '\n'), 5, "%s", f.out);
     finished_clear(&f);

@@ -109,6 +109,9 @@ Test(site, is_made_has_no_dead_link_and_is_searched, PLAIN_ONLY)
     }
     finished_clear(&f);
     place_clear(&p);
-    if (!made) cr_skip_test("no pandoc");
+    if (!made) {
+        cr_log_warn("skipped: there is no pandoc");
+        cr_skip_test("no pandoc");
+    }
     if (!searched) cr_log_warn("site: the search was not tried, there is no chromium");
 }

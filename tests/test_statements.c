@@ -441,8 +441,8 @@ Test(statements, currents_are_printed_so_that_they_hold_on_both_branches, PLAIN_
     place p = place_make();
     write_branches(&p);
     reports r = analyze(&p, "up.yaml");
-    char *text = currents_of(r.text, "FOUND", "Explicit motion"), *tex = currents_of(r.tex, "\\section{Currents}", "\\section{The system}");
-    char *page = currents_of(r.page, "<section id=\"currents\">", "<section id=\"system\">");
+    char *text = currents_of(r.text, "FOUND", "Explicit motion"), *tex = currents_of(r.tex, "\\section{Currents}", "\\section{Explicit motion}");
+    char *page = currents_of(r.page, "<section id=\"currents\">", "<section id=\"explicit\">");
     cr_expect(!strstr(text, "sqrt") && !strstr(tex, "\\sqrt") && !strstr(page, "msqrt"), "%s", text);
     cr_expect_not_null(strstr(r.text, "computed on the branch z' > 0; the equations hold on the branch z' < 0"), "%s", r.text);
     size_t count = 0;

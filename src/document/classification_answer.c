@@ -80,13 +80,16 @@ static bool is_known(const screen *x, const nh_current *f, const char *text)
     return known;
 }
 
+/* At a special value a function of the others is shown where it is one of those that are more, by its degree. */
 static void put_currents(const screen *x, const place *at, bool all, nh_text *block)
 {
     enum { most_lines = 4 };
     for (size_t k = 0; k < at->count; k++) {
-        const nh_current *f = nh_classified_current(at->r, at->index ? at->index[k] : k);
-        bool follows = f->independence == NH_DEPENDENT || k >= at->r->count;
-        if (!f->proof.proved || f->series || (!all && follows)) continue;
+        size_t i = at->index ? at->index[k] : k;
+        const nh_current *f = nh_classified_current(at->r, i);
+        bool further = i >= at->r->count && at->r->further[i - at->r->count].degree <= at->first,
+             follows = f->independence == NH_DEPENDENT || i >= at->r->count;
+        if (!f->proof.proved || f->series || (!all && follows && !further)) continue;
         char *text = text_of(at->r, f);
         if (all || !is_known(x, f, text))
             nh_screen_put(block, x->colour, 2, nh_current_label(at->r, f), text, most_lines, NULL);

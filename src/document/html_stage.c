@@ -236,6 +236,16 @@ static void how_sure(nh_html_writer *w, const nh_stage_row *r)
     nh_html_add(w, "<span class=\"needs\"></span></td>");
 }
 
+/* As text: a formula is no name of a link. */
+static void plain_name(nh_html_writer *w, const char *name)
+{
+    nh_text plain;
+    nh_text_init(&plain);
+    nh_typeset_plain(name, &plain);
+    nh_html_text(w, nh_text_string(&plain));
+    nh_text_clear(&plain);
+}
+
 static void row(nh_html_writer *w, const nh_stage *s, const nh_formula_list *list, size_t k)
 {
     enum { colours = 6 };
@@ -246,7 +256,7 @@ static void row(nh_html_writer *w, const nh_stage *s, const nh_formula_list *lis
                  k, 1 + k % colours);
     if (*r->anchor) nh_text_addf(w->out, "<a href=\"#%s\">", r->anchor);
     if (*r->name) words(w, r->name);
-    else nh_typeset_plain(s->live->quantity[k].name, w->out); /* a formula is no name of a link */
+    else plain_name(w, s->live->quantity[k].name);
     nh_html_add(w, *r->anchor ? "</a>" : "");
     if (*r->doc) nh_html_add(w, " <span class=\"doc\">"), nh_html_prose(w, r->doc), nh_html_add(w, "</span>");
     nh_html_add(w, "</span></span><div class=\"f\">");
