@@ -218,6 +218,47 @@ Test(drawing, coordinates_without_bodies)
     }
 }
 
+/* What the kinetic energy says of coordinates whose file says nothing: the last point or ball that is drawn, at q = (0.5, 2, 3, ..). */
+Test(drawing, coordinates_without_types)
+{
+    static const struct {
+        const char *text, *words;
+        double x, y, z;
+    } cases[] = {
+#define SPRING "coordinates: r, a\nlagrangian: r'^2/2 + r^2*a'^2/2 "
+        {SPRING "+ 1/r\n", "(r, a) in polar coordinates", -0.208073418, 0.454648713, 0},
+        {SPRING "+ 9*r*cos(a)\n", "(r, a) in polar coordinates", 0.454648713, 0.208073418, 0},
+        {SPRING "- 9*r*cos(a)\n", "(r, a) in polar coordinates", 0.454648713, -0.208073418, 0},
+        {SPRING "- 9*r*sin(a)\n", "(r, a) in polar coordinates", -0.208073418, 0.454648713, 0},
+        {"coordinates: r, a, z\nlagrangian: r'^2/2 + r^2*a'^2/2 + z'^2\n", "(r, a) in polar coordinates", -0.208073418, 0.454648713, 0},
+        {"coordinates: r, a, b\nlagrangian: r'^2/2 + r^2*(a'^2 + sin(a)^2*b'^2)/2 + 1/r\n", "(r, a, b) in polar coordinates", -0.450098815, 0.064160030, -0.208073418},
+        {"coordinates: R, r, a, b\nlagrangian: R'^2 + R^2*b'^2 + 3*r'^2 + 3*r^2*a'^2 + cos(a-b)\n", "(R, b), (r, a) in polar coordinates", -1.979984993, 0.282240016, 0},
+        {"coordinates: u, v\nlagrangian: (u^2 + v^2)*(u'^2 + v'^2)\n", "u to the right and v up", 0.5, 2, 0},
+        {"coordinates: a\nlagrangian: a'^2 + cos(a)\n", "the angle as a hand", 0, 0, 0},
+        {"coordinates: a, b\nparameters: m=2, l=3\nlagrangian: m*l^2*a'^2 + 8*b'^2 + m*l*4*a'*b'*cos(a-b) + cos(a) + cos(b)\n", "pendulums one at the end of the other; the last has length 1", 0.75 * sin(.5) * 2 + sin(2), -0.75 * cos(.5) * 2 - cos(2), 0},
+        {"coordinates: x, a\nparameters: m=2, l=3\nlagrangian: x'^2 + m*l^2*a'^2/2 - m*l*x'*a'*cos(a) + 9*m*l*cos(a)\n", "x along a line, with pendulums", 0.5 - 3 * sin(2), 3 * cos(2), 0},
+        {"coordinates: x, a\nlagrangian: x'^2 + a'^2 + x*a'\n", "x to the right and a up", 0.5, 2, 0},
+        {"coordinates: {x: number, a: angle}\nlagrangian: x'^2 + a'^2 + x*a'\n", "x along a line, each angle as a hand there", 0.5, 0, 0},
+    };
+    const double q[] = {0.5, 2, 3, 4};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        nh_system *s = parse(cases[i].text);
+        nh_arena *arena = nh_arena_create();
+        const nh_shape *shape, *last = NULL;
+        size_t count;
+        const char *words = nh_drawing_choose(arena, s, &count, &shape);
+        cr_expect_str_eq(words, cases[i].words, "case %zu: %s", i, words);
+        for (size_t k = 0; k < count; k++)
+            if (shape[k].kind == NH_SHAPE_POINT || shape[k].kind == NH_SHAPE_BALL || (shape[k].kind == NH_SHAPE_SEGMENT && count == 1)) last = &shape[k];
+        cr_assert_not_null(last, "case %zu", i);
+        cr_expect_float_eq(at(s, last, 0, q), cases[i].x, 1e-8, "case %zu: x = %.9g", i, at(s, last, 0, q));
+        cr_expect_float_eq(at(s, last, 1, q), cases[i].y, 1e-8, "case %zu: y = %.9g", i, at(s, last, 1, q));
+        if (last->kind == NH_SHAPE_BALL) cr_expect_float_eq(at(s, last, 2, q), cases[i].z, 1e-8, "case %zu: z = %.9g", i, at(s, last, 2, q));
+        nh_arena_free(arena);
+        nh_system_free(s);
+    }
+}
+
 static nh_simulation *moving(const char *path, const char *initial, double step, nh_time_series **out)
 {
     nh_error error;

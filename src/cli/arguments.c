@@ -163,8 +163,12 @@ static bool all_belong(const nh_cli *cli, const bool *given, nh_error *error)
     for (size_t i = 0; i < owner_count; i++) {
         if (!given[i] || for_all(owners[i].code) || nh_word_among(owners[i].commands, cli->command)) continue;
         nh_fail(error, NH_USAGE, "", "`nhsym %s` does not take --%s", cli->command, owners[i].name);
-        return nh_error_hint(error, "`nhsym help %s` lists its options; this one belongs to: %s", cli->command,
-                             owners[i].commands);
+        bool named = cli->operands == 1; /* then the line to write can be given */
+        return nh_error_hint(error, "`nhsym help %s` lists its options; this one belongs to: %s%s%.*s%s%.100s%s%s%s",
+                             cli->command, owners[i].commands, named ? " (nhsym " : "",
+                             named ? (int)strcspn(owners[i].commands, " ") : 0, owners[i].commands, named ? " " : "",
+                             named ? cli->operand[0] : "", named ? " --" : "", named ? owners[i].name : "",
+                             named ? " ..)" : "");
     }
     return true;
 }

@@ -359,7 +359,9 @@ static void picture(nh_html_writer *w, const nh_time_series *c)
     nh_html_still(w, c);
     nh_html_add(w, "</div><svg class=\"scene\" role=\"img\" tabindex=\"0\" aria-label=\"The system in motion. Drawn: ");
     nh_html_text(w, c->drawing);
-    nh_html_add(w, "\"></svg><div class=\"view\"><button type=\"button\" data-do=\"out\" aria-label=\"zoom "
+    nh_html_add(w, "\"></svg><p class=\"hint drawn\">Drawn: ");
+    nh_html_text(w, c->drawing);
+    nh_html_add(w, ".</p><div class=\"view\"><button type=\"button\" data-do=\"out\" aria-label=\"zoom "
                    "out\">\u2212</button><button type=\"button\" data-do=\"in\" aria-label=\"zoom in\">+</button>"
                    "<button type=\"button\" data-do=\"fit\">fit</button><button type=\"button\" data-do=\"follow\" "
                    "aria-pressed=\"false\">follow</button></div></div>\n");

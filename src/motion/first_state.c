@@ -6,6 +6,7 @@
 
 #include "base/linalg.h"
 #include "motion/assembly.h"
+#include "system/domain.h"
 
 static bool depends_on_time(const nh_model *o)
 {
@@ -29,6 +30,41 @@ static void round_point(const nh_model *o, double *z)
     nh_assembly_free(equations);
 }
 
+typedef struct {
+    const nh_model *model;
+    nh_tape *tape;
+    nh_tape_work *work;
+    double *a; /* n: the accelerations */
+} acceleration;
+
+static bool finite_at(acceleration *x, double *z, size_t i, double value)
+{
+    z[i] = value;
+    bool good = nh_chart_complete(x->model->chart, z);
+    nh_tape_eval(x->tape, x->work, z, x->a);
+    return good && nh_all_finite(x->model->n, x->a);
+}
+
+/* A length whose zero is a pole of the equations of motion, as r = 0 of polar coordinates, becomes 1 if that is none
+ * and the file gives no interval. */
+static void leave_poles(const nh_model *o, double *z)
+{
+    nh_assembly *equations = nh_assembly_create(o);
+    acceleration x = {.model = o, .tape = nh_model_tape(o, o->n, o->a), .a = nh_alloc_array(o->n + 1, sizeof *x.a)};
+    x.work = nh_tape_work_create(x.tape);
+    for (size_t i = 1; i <= o->m && !equations; i++) {
+        const nh_coordinate *c = &o->system->coordinate[i - 1];
+        double before = z[i], low, high;
+        nh_domain_range(o->system, c->q, &low, &high);
+        bool own = low > -1 || high < 1;
+        if (c->type == NH_ANGLE || own || finite_at(&x, z, i, 0) || !finite_at(&x, z, i, 1)) z[i] = before;
+    }
+    nh_free(x.a);
+    nh_tape_work_free(x.work);
+    nh_tape_free(x.tape);
+    nh_assembly_free(equations);
+}
+
 static bool velocities_at(const nh_model *o, double *z, double *v)
 {
     nh_tape *tape = nh_model_tape(o, o->m, o->rho);
@@ -46,6 +82,7 @@ bool nh_first_state(const nh_model *o, double *z, double *v)
     if (!depends_on_time(o)) z[0] = 0;
     memcpy(given, z, o->width * sizeof *given);
     round_point(o, z);
+    leave_poles(o, z);
     bool good = velocities_at(o, z, v);
     if (!good) {
         memcpy(z, given, o->width * sizeof *given);

@@ -3,6 +3,9 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "exact/normal.h"
+#include "graph/diff.h"
+#include "graph/measure.h"
 #include "problem/solid.h"
 
 typedef struct {
@@ -188,7 +191,169 @@ static const char *bodies(drawing *w)
     return view;
 }
 
-/* ---- coordinates ---- */
+/* ---- coordinates, as the kinetic energy has them ---- */
+
+enum { longest = 2000 }; /* what is longer is neither c f nor compared */
+
+/* m_ij = d2L/dv_i dv_j. */
+static nh_ex mass(const drawing *w, size_t i, size_t j)
+{
+    const nh_coordinate *c = w->s->coordinate;
+    return nh_diff(w->s->dag, nh_diff(w->s->dag, w->s->lagrangian, c[i].v), c[j].v);
+}
+
+/* Is it free of t, positions and velocities? */
+static bool constant(const drawing *w, nh_ex e)
+{
+    for (size_t i = 0; i < w->s->coordinates; i++)
+        if (nh_depends(w->s->dag, e, w->s->coordinate[i].q) || nh_depends(w->s->dag, e, w->s->coordinate[i].v)) return false;
+    return !nh_depends(w->s->dag, e, w->s->t);
+}
+
+/* c with m_ij = c f for a constant c that is not 0: the value of m_ij where `from` is `to`, and f is 1; 0: there is none. */
+static nh_ex multiple(const drawing *w, size_t i, size_t j, nh_ex f, nh_ex from, nh_ex to)
+{
+    nh_dag *d = w->s->dag;
+    nh_ex m = mass(w, i, j), c = nh_simplify_short(d, nh_substitute(d, m, 1, &from, &to), longest);
+    bool is = nh_complexity_within(d, m, longest) && constant(w, c) && !nh_is_zero(d, c) &&
+              nh_normal_is_zero(d, nh_sub(d, m, nh_mul(d, c, f)), 0) == NH_ZERO;
+    return is ? c : nh_int(d, 0);
+}
+
+/* An angle: declared, or L is the same after a full turn and not free of it. */
+static bool turns(const drawing *w, size_t i)
+{
+    nh_dag *d = w->s->dag;
+    const nh_coordinate *c = &w->s->coordinate[i];
+    nh_ex after = nh_add(d, c->q, nh_mul(d, nh_int(d, 2), nh_pi(d)));
+    nh_ex change = nh_sub(d, nh_substitute(d, w->s->lagrangian, 1, &c->q, &after), w->s->lagrangian);
+    return c->type == NH_ANGLE || (c->type == NH_PLAIN && nh_depends(d, w->s->lagrangian, c->q) &&
+                                   nh_complexity_within(d, change, longest) && nh_normal_is_zero(d, change, 0) == NH_ZERO);
+}
+
+/* Where gravity points, on the axis from which an angle is measured: 1 to the angle 0, -1 to pi, 0 across or nowhere:
+ * the sign of L(0) - L(pi), at rest, wherever the other coordinates are. */
+static int gravity(const drawing *w, size_t angle)
+{
+    enum { places = 3 };
+    nh_dag *d = w->s->dag;
+    size_t m = w->s->coordinates;
+    nh_ex *from = nh_arena_alloc(w->arena, (2 * m + 1) * sizeof *from);
+    nh_ex *to = nh_arena_alloc(w->arena, (2 * m + 1) * sizeof *to);
+    int sum = 0;
+    for (int k = 1; k <= places; k++) {
+        double value[2];
+        for (int side = 0; side < 2; side++) {
+            for (size_t i = 0; i < m; i++) {
+                from[i] = w->s->coordinate[i].q;
+                from[m + i] = w->s->coordinate[i].v;
+                to[i] = nh_int(d, k);
+                to[m + i] = nh_int(d, 0);
+            }
+            from[2 * m] = w->s->t;
+            to[2 * m] = nh_int(d, 0);
+            to[angle] = side ? nh_pi(d) : nh_int(d, 0);
+            value[side] = nh_system_number(w->s, nh_substitute(d, w->s->lagrangian, 2 * m + 1, from, to));
+        }
+        sum += value[0] > value[1] ? 1 : value[0] < value[1] ? -1 : 0;
+    }
+    return sum == places ? 1 : sum == -places ? -1 : 0;
+}
+
+/* The direction at an angle: from the vertical where gravity points along it, else from the x axis (or, where `hanging`
+ * is the custom, from below). */
+static void direction(const drawing *w, size_t angle, bool hanging, nh_ex out[2])
+{
+    nh_dag *d = w->s->dag;
+    int down = gravity(w, angle);
+    nh_ex q = w->s->coordinate[angle].q, c = nh_call(d, NH_COS, q), s = nh_call(d, NH_SIN, q);
+    bool upright = down || hanging;
+    out[0] = upright ? s : c;
+    out[1] = !upright ? s : down < 0 ? c : nh_neg(d, c);
+}
+
+/* Polar coordinates r and angle i, m_ii = c r^2, m_rr constant; of a sphere with k, m_kk = c r^2 sin(i)^2, too: a
+ * point.  Its name, or NULL: they are not. */
+static const char *polar(drawing *w, size_t r, size_t i, bool *used)
+{
+    nh_dag *d = w->s->dag;
+    const nh_coordinate *q = w->s->coordinate;
+    nh_ex one = nh_int(d, 1), square = nh_powi(d, q[r].q, 2), c = multiple(w, i, i, square, q[r].q, one);
+    if (nh_is_zero(d, c) || !constant(w, mass(w, r, r)) || !nh_is_zero(d, nh_simplify(d, mass(w, r, i)))) return NULL;
+    used[r] = used[i] = true;
+    nh_ex u[2], end[3];
+    for (size_t k = 0; k < w->s->coordinates; k++) {
+        nh_ex sine = nh_call(d, NH_SIN, q[i].q), round = nh_mul(d, c, nh_powi(d, nh_mul(d, q[r].q, sine), 2));
+        if (used[k] || nh_normal_is_zero(d, nh_sub(d, mass(w, k, k), round), 0) != NH_ZERO) continue;
+        used[k] = true;
+        nh_ex across = nh_mul(d, q[r].q, sine), height = nh_mul(d, q[r].q, nh_call(d, NH_COS, q[i].q));
+        const nh_ex p[3] = {nh_mul(d, across, nh_call(d, NH_COS, q[k].q)), nh_mul(d, across, nh_call(d, NH_SIN, q[k].q)),
+                            gravity(w, i) > 0 ? nh_neg(d, height) : height};
+        const char *name = nh_arena_printf(w->arena, "(%s, %s, %s)", q[r].name, q[i].name, q[k].name);
+        nh_pose pose = nh_pose_shift(d, p);
+        nh_ex none = nh_int(d, 0);
+        *draw(w, NH_SHAPE_BALL) = nh_shape_solid(NH_SHAPE_BALL, name, &pose, &none);
+        nh_shape *line = draw(w, NH_SHAPE_ROD);
+        for (size_t a = 0; a < 3; a++) line->value[a] = none, line->value[3 + a] = p[a];
+        return name;
+    }
+    direction(w, i, false, u);
+    for (size_t a = 0; a < 2; a++) end[a] = nh_mul(d, q[r].q, u[a]);
+    const nh_ex zero[2] = {nh_int(d, 0), nh_int(d, 0)};
+    segment(w, zero, end);
+    return point(w, end[0], end[1])->name = nh_arena_printf(w->arena, "(%s, %s)", q[r].name, q[i].name);
+}
+
+static const char *polar_points(drawing *w)
+{
+    size_t m = w->s->coordinates;
+    bool *used = nh_arena_alloc(w->arena, m * sizeof *used);
+    memset(used, 0, m * sizeof *used);
+    const char *words = NULL;
+    for (size_t r = 0; r < m; r++)
+        for (size_t i = 0; i < m && !used[r] && w->s->coordinate[r].type != NH_ANGLE; i++) {
+            const char *name = i == r || used[i] || w->s->coordinate[i].type == NH_LENGTH ? NULL : polar(w, r, i, used);
+            if (!name) continue;
+            words = words ? nh_arena_printf(w->arena, "%s, %s", words, name) : name;
+        }
+    return words ? nh_arena_printf(w->arena, "%s in polar coordinates", words) : NULL;
+}
+
+/* Pendulums one at the end of the other, by their angles from the vertical: m_ij = c_ij cos(q_i - q_j), on the ground or
+ * on a cart at x, m_xj = c_xj cos(q_j).  Of point masses c_jn/c_nn = l_j/l_n for the last one, n, and c_nn/c_xn = l_n. */
+static const char *pendulums(drawing *w, size_t cart, size_t n, const size_t *angle)
+{
+    nh_dag *d = w->s->dag;
+    const nh_coordinate *q = w->s->coordinate;
+    bool on_cart = cart < w->s->coordinates;
+    size_t last = angle[n - 1];
+    nh_ex *length = nh_arena_alloc(w->arena, n * sizeof *length), zero = nh_int(d, 0), at[2] = {zero, zero};
+    if (n < 2 && !on_cart) return NULL;
+    nh_ex unit = on_cart ? multiple(w, cart, last, nh_call(d, NH_COS, q[last].q), q[last].q, zero) : mass(w, last, last);
+    for (size_t i = 0; i < n; i++) {
+        if (!constant(w, mass(w, angle[i], angle[i]))) return NULL;
+        for (size_t j = 0; j < i; j++) {
+            nh_ex f = nh_call(d, NH_COS, nh_sub(d, q[angle[i]].q, q[angle[j]].q));
+            if (nh_is_zero(d, length[j] = multiple(w, angle[i], angle[j], f, q[angle[i]].q, q[angle[j]].q))) return NULL;
+        }
+        nh_ex f = nh_call(d, NH_COS, q[angle[i]].q);
+        if (on_cart && nh_is_zero(d, multiple(w, cart, angle[i], f, q[angle[i]].q, zero))) return NULL;
+    }
+    length[n - 1] = mass(w, last, last); /* the loop left those of the last one's row */
+    if (on_cart) point(w, at[0] = q[cart].q, zero);
+    for (size_t i = 0; i < n; i++) {
+        nh_ex u[2], end[2], l = nh_simplify(d, nh_div(d, length[i], unit));
+        direction(w, angle[i], true, u);
+        for (size_t a = 0; a < 2; a++) end[a] = nh_add(d, at[a], nh_mul(d, l, u[a]));
+        segment(w, at, end);
+        memcpy(at, end, sizeof at);
+    }
+    point(w, at[0], at[1]);
+    return on_cart ? nh_arena_printf(w->arena, "%s along a line, with pendulums", q[cart].name)
+                   : "pendulums one at the end of the other; the last has length 1";
+}
+
+/* ---- coordinates, as their types say ---- */
 
 /* x1 and y1, but not x1 and x2: the same number at the end of different names. */
 static bool pair(const char *a, const char *b)
@@ -200,63 +365,59 @@ static bool pair(const char *a, const char *b)
 }
 
 /* Points x1, y1, x2, y2, ...; false when the lengths do not come in pairs. */
-static bool several_points(drawing *w, size_t lengths, const nh_coordinate *const *length)
+static bool several_points(drawing *w, size_t lengths, const size_t *length)
 {
+    const nh_coordinate *c = w->s->coordinate;
     if (lengths < 4 || lengths % 2) return false;
     for (size_t i = 0; i < lengths; i += 2)
-        if (!pair(length[i]->name, length[i + 1]->name)) return false;
+        if (!pair(c[length[i]].name, c[length[i + 1]].name)) return false;
     for (size_t i = 0; i < lengths; i += 2)
-        point(w, length[i]->q, length[i + 1]->q)->name =
-            nh_arena_printf(w->arena, "(%s, %s)", length[i]->name, length[i + 1]->name);
+        point(w, c[length[i]].q, c[length[i + 1]].q)->name =
+            nh_arena_printf(w->arena, "(%s, %s)", c[length[i]].name, c[length[i + 1]].name);
     return true;
 }
 
-static const char *along_line(drawing *w, nh_ex r, const nh_coordinate *angle)
-{
-    nh_dag *d = w->s->dag;
-    if (!angle) {
-        point(w, r, nh_int(d, 0));
-        return "the coordinate along a line";
-    }
-    const nh_ex zero[2] = {nh_int(d, 0), nh_int(d, 0)};
-    nh_ex at[2] = {nh_mul(d, r, nh_call(d, NH_COS, angle->q)), nh_mul(d, r, nh_call(d, NH_SIN, angle->q))};
-    if (at[0] != zero[0] || at[1] != zero[1]) segment(w, zero, at);
-    point(w, at[0], at[1]);
-    return "length and angle as polar coordinates";
-}
-
-/* Pendulum hands that hang down at 0 and turn to the left, on dials side by side. */
-static const char *dials(drawing *w)
+/* Hands of dials side by side, or at a point of the line. */
+static void dials(drawing *w, size_t angles, const size_t *angle, const nh_ex *at_point)
 {
     enum { apart = 3 };
     nh_dag *d = w->s->dag;
-    for (size_t i = 0; i < w->s->coordinates; i++) {
-        nh_ex at[2] = {nh_int(d, (int64_t)(apart * i)), nh_int(d, 0)}, q = w->s->coordinate[i].q;
-        nh_ex end[2] = {nh_add(d, at[0], nh_call(d, NH_SIN, q)), nh_neg(d, nh_call(d, NH_COS, q))};
+    for (size_t i = 0; i < angles; i++) {
+        nh_ex at[2] = {at_point ? *at_point : nh_int(d, (int64_t)(apart * i)), nh_int(d, 0)}, u[2], end[2];
+        direction(w, angle[i], true, u);
+        for (size_t a = 0; a < 2; a++) end[a] = nh_add(d, at[a], u[a]);
         segment(w, at, end);
     }
-    return w->s->coordinates == 1 ? "the angle as a hand; 0 points down"
-                                  : "each angle as the hand of a separate dial, in order; 0 points down";
 }
 
 static const char *from_coordinates(drawing *w)
 {
     const nh_system *s = w->s;
-    const nh_coordinate **length = nh_arena_alloc(w->arena, (s->coordinates + 1) * sizeof *length), *angle = NULL;
-    size_t lengths = 0;
-    for (size_t i = 0; i < s->coordinates; i++) {
-        if (s->coordinate[i].type == NH_ANGLE && !angle) angle = &s->coordinate[i];
-        if (s->coordinate[i].type != NH_ANGLE) length[lengths++] = &s->coordinate[i];
+    const nh_coordinate *c = s->coordinate;
+    size_t *length = nh_arena_alloc(w->arena, (s->coordinates + 1) * sizeof *length), lengths = 0;
+    size_t *angle = nh_arena_alloc(w->arena, (s->coordinates + 1) * sizeof *angle), angles = 0;
+    const char *words = polar_points(w);
+    if (words) return words;
+    for (size_t i = 0; i < s->coordinates; i++)
+        if (turns(w, i)) angle[angles++] = i;
+        else length[lengths++] = i;
+    if (angles && lengths < 2 && (words = pendulums(w, lengths ? length[0] : s->coordinates, angles, angle))) return words;
+    if (lengths == 0) {
+        dials(w, angles, angle, NULL);
+        return angles == 1 ? "the angle as a hand" : "each angle as the hand of a separate dial, in order";
     }
-    if (lengths == 0) return dials(w);
-    if (lengths == 1) return along_line(w, length[0]->q, angle);
+    if (lengths == 1) {
+        point(w, c[length[0]].q, nh_int(s->dag, 0));
+        dials(w, angles, angle, &c[length[0]].q);
+        return nh_arena_printf(w->arena, "%s along a line%s", c[length[0]].name, angles ? ", each angle as a hand there" : "");
+    }
     if (several_points(w, lengths, length)) return "each pair of coordinates as a point";
-    nh_shape *p = draw(w, angle ? NH_SHAPE_ARROW : NH_SHAPE_POINT);
-    p->value[0] = length[0]->q;
-    p->value[1] = length[1]->q;
-    if (angle) p->value[2] = angle->q;
-    return nh_arena_printf(w->arena, "%s and %s as a plane%s%s", length[0]->name, length[1]->name,
-                           angle ? ", with the heading " : "", angle ? angle->name : "");
+    nh_shape *p = draw(w, angles ? NH_SHAPE_ARROW : NH_SHAPE_POINT);
+    p->value[0] = c[length[0]].q;
+    p->value[1] = c[length[1]].q;
+    if (angles) p->value[2] = c[angle[0]].q;
+    return nh_arena_printf(w->arena, "%s to the right and %s up%s%s", c[length[0]].name, c[length[1]].name,
+                           angles ? ", with the heading " : "", angles ? c[angle[0]].name : "");
 }
 
 const char *nh_drawing_choose(nh_arena *arena, const nh_system *s, size_t *count, const nh_shape **shape)

@@ -9,10 +9,12 @@
  *     bodies and joints    a rod from joint to joint, a point at every mass, wheels and blades; from above when there
  *                          are wheels, else across
  *                          the direction in which the least moves
+ *     polar coordinates    of a plane, of a sphere, where d2L/dv_i dv_j is that of them: a point each
+ *     pendulums            one at the end of the other, on the ground or on a cart, likewise
  *     two lengths or more  points in the plane of the first two (of several pairs x1, y1, x2, y2: one point each), with
  *                          the first angle as heading
- *     one length           a point on a line that turns with the first angle, if there is one
- *     angles               each the hand of a dial; a pair of polar angles on a unit sphere is not guessed
+ *     one length           a point on a line, the angles as hands there
+ *     angles               each the hand of a dial
  *
  * Returns how it is seen, in words for a caption, or NULL with no shapes. */
 const char *nh_drawing_choose(nh_arena *arena, const nh_system *system, size_t *count, const nh_shape **shape);

@@ -426,6 +426,15 @@ static bool read_dependent(reader *r)
     return true;
 }
 
+/* What a system without `name` is called: its file, without folder and ending. */
+static const char *usual_name(reader *r)
+{
+    const char *file = nh_deck_name(r->deck), *slash = strrchr(file, '/');
+    if (slash) file = slash + 1;
+    size_t length = strcspn(file, ".");
+    return length && *file != '-' ? nh_arena_printf(r->system->arena, "%.*s", (int)length, file) : "system";
+}
+
 static bool read_all(reader *r, size_t settings, const nh_setting *setting)
 {
     nh_system *s = r->system;
@@ -434,7 +443,7 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
         return false;
     if (!nh_ordinary_only_known(r->deck, r->error)) return false;
     const char *doc; /* text for readers of the file */
-    if (!nh_system_text_of(r, r->root, "name", "system", &s->name) ||
+    if (!nh_system_text_of(r, r->root, "name", usual_name(r), &s->name) ||
         !nh_system_text_of(r, r->root, "title", s->name, &s->title))
         return false;
     if (!nh_system_text_of(r, r->root, "source", "", &s->source) || !nh_system_text_of(r, r->root, "doc", "", &doc))
