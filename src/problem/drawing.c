@@ -206,11 +206,13 @@ static nh_ex mass(const drawing *w, size_t i, size_t j)
 static bool constant(const drawing *w, nh_ex e)
 {
     for (size_t i = 0; i < w->s->coordinates; i++)
-        if (nh_depends(w->s->dag, e, w->s->coordinate[i].q) || nh_depends(w->s->dag, e, w->s->coordinate[i].v)) return false;
+        if (nh_depends(w->s->dag, e, w->s->coordinate[i].q) || nh_depends(w->s->dag, e, w->s->coordinate[i].v))
+            return false;
     return !nh_depends(w->s->dag, e, w->s->t);
 }
 
-/* c with m_ij = c f for a constant c that is not 0: the value of m_ij where `from` is `to`, and f is 1; 0: there is none. */
+/* c with m_ij = c f for a constant c that is not 0: the value of m_ij where `from` is `to`, and f is 1; 0: there is
+ * none. */
 static nh_ex multiple(const drawing *w, size_t i, size_t j, nh_ex f, nh_ex from, nh_ex to)
 {
     nh_dag *d = w->s->dag;
@@ -227,8 +229,9 @@ static bool turns(const drawing *w, size_t i)
     const nh_coordinate *c = &w->s->coordinate[i];
     nh_ex after = nh_add(d, c->q, nh_mul(d, nh_int(d, 2), nh_pi(d)));
     nh_ex change = nh_sub(d, nh_substitute(d, w->s->lagrangian, 1, &c->q, &after), w->s->lagrangian);
-    return c->type == NH_ANGLE || (c->type == NH_PLAIN && nh_depends(d, w->s->lagrangian, c->q) &&
-                                   nh_complexity_within(d, change, longest) && nh_normal_is_zero(d, change, 0) == NH_ZERO);
+    return c->type == NH_ANGLE ||
+           (c->type == NH_PLAIN && nh_depends(d, w->s->lagrangian, c->q) && nh_complexity_within(d, change, longest) &&
+            nh_normal_is_zero(d, change, 0) == NH_ZERO);
 }
 
 /* Where gravity points, on the axis from which an angle is measured: 1 to the angle 0, -1 to pi, 0 across or nowhere:
@@ -287,7 +290,8 @@ static const char *polar(drawing *w, size_t r, size_t i, bool *used)
         if (used[k] || nh_normal_is_zero(d, nh_sub(d, mass(w, k, k), round), 0) != NH_ZERO) continue;
         used[k] = true;
         nh_ex across = nh_mul(d, q[r].q, sine), height = nh_mul(d, q[r].q, nh_call(d, NH_COS, q[i].q));
-        const nh_ex p[3] = {nh_mul(d, across, nh_call(d, NH_COS, q[k].q)), nh_mul(d, across, nh_call(d, NH_SIN, q[k].q)),
+        const nh_ex p[3] = {nh_mul(d, across, nh_call(d, NH_COS, q[k].q)),
+                            nh_mul(d, across, nh_call(d, NH_SIN, q[k].q)),
                             gravity(w, i) > 0 ? nh_neg(d, height) : height};
         const char *name = nh_arena_printf(w->arena, "(%s, %s, %s)", q[r].name, q[i].name, q[k].name);
         nh_pose pose = nh_pose_shift(d, p);
@@ -319,8 +323,9 @@ static const char *polar_points(drawing *w)
     return words ? nh_arena_printf(w->arena, "%s in polar coordinates", words) : NULL;
 }
 
-/* Pendulums one at the end of the other, by their angles from the vertical: m_ij = c_ij cos(q_i - q_j), on the ground or
- * on a cart at x, m_xj = c_xj cos(q_j).  Of point masses c_jn/c_nn = l_j/l_n for the last one, n, and c_nn/c_xn = l_n. */
+/* Pendulums one at the end of the other, by their angles from the vertical: m_ij = c_ij cos(q_i - q_j), on the
+ * ground or on a cart at x, m_xj = c_xj cos(q_j).  Of point masses c_jn/c_nn = l_j/l_n for the last one, n, and
+ * c_nn/c_xn = l_n. */
 static const char *pendulums(drawing *w, size_t cart, size_t n, const size_t *angle)
 {
     nh_dag *d = w->s->dag;
@@ -329,12 +334,14 @@ static const char *pendulums(drawing *w, size_t cart, size_t n, const size_t *an
     size_t last = angle[n - 1];
     nh_ex *length = nh_arena_alloc(w->arena, n * sizeof *length), zero = nh_int(d, 0), at[2] = {zero, zero};
     if (n < 2 && !on_cart) return NULL;
-    nh_ex unit = on_cart ? multiple(w, cart, last, nh_call(d, NH_COS, q[last].q), q[last].q, zero) : mass(w, last, last);
+    nh_ex unit =
+        on_cart ? multiple(w, cart, last, nh_call(d, NH_COS, q[last].q), q[last].q, zero) : mass(w, last, last);
     for (size_t i = 0; i < n; i++) {
         if (!constant(w, mass(w, angle[i], angle[i]))) return NULL;
         for (size_t j = 0; j < i; j++) {
             nh_ex f = nh_call(d, NH_COS, nh_sub(d, q[angle[i]].q, q[angle[j]].q));
-            if (nh_is_zero(d, length[j] = multiple(w, angle[i], angle[j], f, q[angle[i]].q, q[angle[j]].q))) return NULL;
+            if (nh_is_zero(d, length[j] = multiple(w, angle[i], angle[j], f, q[angle[i]].q, q[angle[j]].q)))
+                return NULL;
         }
         nh_ex f = nh_call(d, NH_COS, q[angle[i]].q);
         if (on_cart && nh_is_zero(d, multiple(w, cart, angle[i], f, q[angle[i]].q, zero))) return NULL;
@@ -401,7 +408,8 @@ static const char *from_coordinates(drawing *w)
     for (size_t i = 0; i < s->coordinates; i++)
         if (turns(w, i)) angle[angles++] = i;
         else length[lengths++] = i;
-    if (angles && lengths < 2 && (words = pendulums(w, lengths ? length[0] : s->coordinates, angles, angle))) return words;
+    if (angles && lengths < 2 && (words = pendulums(w, lengths ? length[0] : s->coordinates, angles, angle)))
+        return words;
     if (lengths == 0) {
         dials(w, angles, angle, NULL);
         return angles == 1 ? "the angle as a hand" : "each angle as the hand of a separate dial, in order";
@@ -409,7 +417,8 @@ static const char *from_coordinates(drawing *w)
     if (lengths == 1) {
         point(w, c[length[0]].q, nh_int(s->dag, 0));
         dials(w, angles, angle, &c[length[0]].q);
-        return nh_arena_printf(w->arena, "%s along a line%s", c[length[0]].name, angles ? ", each angle as a hand there" : "");
+        return nh_arena_printf(w->arena, "%s along a line%s", c[length[0]].name,
+                               angles ? ", each angle as a hand there" : "");
     }
     if (several_points(w, lengths, length)) return "each pair of coordinates as a point";
     nh_shape *p = draw(w, angles ? NH_SHAPE_ARROW : NH_SHAPE_POINT);
