@@ -2,6 +2,7 @@
 #include <float.h>
 #include <stdio.h>
 
+#include "document/screen.h"
 #include "geometry/distribution.h"
 #include "integrals/symmetry.h"
 #include "graph/print.h"
@@ -131,3 +132,27 @@ static void in_all_units(void (*describe_it)(const mechanics *x, const char *con
 
 Test(unit_symmetries, words_know_none, PLAIN_ONLY) { in_all_units(describe); }
 Test(unit_symmetries, groups_know_none, PLAIN_ONLY) { in_all_units(describe_group); }
+
+/* Velocities that are longer than a normal form may be are linear in w as they are written: the energy of a bicycle is conserved by the theorem. */
+Test(unit_symmetries, energy_where_velocities_are_long, PLAIN_ONLY)
+{
+    mechanics x = mechanics_of_file("systems/whipple_bicycle.yaml", NH_CHART_AUTO, 0, NULL);
+    cr_expect(nh_symmetry_is_energy(x.model, x.model->E));
+    cr_expect_not(nh_symmetry_is_energy(x.model, x.model->Lbar));
+    mechanics_clear(&x);
+}
+
+/* A shared graph of 200 nodes would have 2^100 letters on paper. */
+Test(unit_symmetries, a_screen_has_no_room_for_a_shared_graph)
+{
+    nh_dag *d = nh_dag_create();
+    nh_ex e = nh_symbol(d, "x");
+    nh_text out;
+    nh_text_init(&out);
+    cr_expect(nh_screen_equation("y", d, e, &out));
+    for (int k = 0; k < 100; k++) e = nh_call(d, NH_SIN, nh_add(d, nh_call(d, NH_COS, e), nh_powi(d, e, 2)));
+    cr_expect_not(nh_screen_equation("z", d, e, &out));
+    cr_expect_str_eq(nh_text_string(&out), "  y = x\n");
+    nh_text_clear(&out);
+    nh_dag_free(d);
+}

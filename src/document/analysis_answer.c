@@ -394,18 +394,20 @@ static void equations(const screen *x, size_t room)
 {
     const nh_analysis *r = x->r;
     const nh_model *o = r->model;
+    bool all = true;
     nh_text block;
     nh_text_init(&block);
     put_constraints(x, &block);
-    for (size_t s = 0; s < o->m && o->chart->quasi && !o->framed; s++)
-        nh_screen_equation(nh_arena_printf(o->arena, "%s'", o->system->coordinate[s].name), o->dag, o->rho[s], &block);
-    for (size_t i = 0; i < o->n; i++) {
+    for (size_t s = 0; s < o->m && all && o->chart->quasi && !o->framed; s++)
+        all = nh_screen_equation(nh_arena_printf(o->arena, "%s'", o->system->coordinate[s].name), o->dag, o->rho[s],
+                                 &block);
+    for (size_t i = 0; i < o->n && all; i++) {
         nh_ex a = nh_chart_shown(o->chart, o->a[i]);
-        nh_screen_equation(nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i])), o->dag,
-                     nh_formula_shortened(r->analysis, o->dag, a), &block);
+        all = nh_screen_equation(nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i])), o->dag,
+                                 nh_formula_shortened(r->analysis, o->dag, a), &block);
     }
     size_t n = nh_screen_count(nh_text_string(&block));
-    bool fits = n <= few_equations || n <= room;
+    bool fits = all && (n <= few_equations || n <= room);
     if (fits) nh_text_addf(x->out, "\n%s", nh_text_string(&block));
     nh_text_clear(&block);
 }

@@ -84,15 +84,18 @@ void nh_screen_formula(nh_text *out, bool colour, const char *lines)
     }
 }
 
-void nh_screen_equation(const char *label, nh_dag *d, nh_ex e, nh_text *out)
+bool nh_screen_equation(const char *label, nh_dag *d, nh_ex e, nh_text *out)
 {
+    enum { longest = 80 * NH_SCREEN_LINES };
     nh_text line;
     nh_text_init(&line);
-    char *value = nh_print_string(d, e);
-    nh_text_addf(&line, "%s = %s", label, value);
-    nh_sheet_broken(2, 2 + NH_SCREEN_HANG, nh_text_string(&line), out);
+    char *value = nh_print_short(d, e, longest); /* a shared graph can be exponentially long on paper */
+    nh_text_addf(&line, "%s = %s", label, value ? value : "");
+    if (value) nh_sheet_broken(2, 2 + NH_SCREEN_HANG, nh_text_string(&line), out);
+    bool written = value;
     nh_free(value);
     nh_text_clear(&line);
+    return written;
 }
 
 bool nh_screen_put(nh_text *out, bool colour, size_t indent, const char *head, const char *formula, size_t most,

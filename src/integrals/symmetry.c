@@ -156,12 +156,28 @@ static void solve_directly(nh_model *o, nh_symmetry *z)
     }
 }
 
+/* Is rho_i a sum of R_ij w^j with R free of w, as it is written?  However long R is, this is seen at once. */
+static bool is_written_linear(const nh_model *o, size_t i)
+{
+    nh_ex *zero = nh_alloc_array(o->n + 1, sizeof *zero);
+    const nh_ex *w = o->chart->symbol + 1 + o->m;
+    bool linear = true;
+    for (size_t j = 0; j < o->n; j++) {
+        zero[j] = nh_int(o->dag, 0);
+        for (size_t k = 0; k < o->n && linear; k++) linear = !nh_depends(o->dag, o->R[i * o->n + j], w[k]);
+    }
+    linear = linear && nh_is_zero(o->dag, nh_substitute(o->dag, o->rho[i], o->n, w, zero));
+    nh_free(zero);
+    return linear;
+}
+
 bool nh_symmetry_is_energy(const nh_model *o, nh_ex phi)
 {
     nh_dag *d = o->dag;
     const nh_system *s = o->system;
     bool holds = (phi == o->E || phi == nh_neg(d, o->E)) && !s->has_forces && !nh_depends(d, s->lagrangian, s->t);
     for (size_t i = 0; i < o->m && holds; i++) {
+        if (is_written_linear(o, i)) continue;
         nh_ex rest = nh_neg(d, o->rho[i]);
         for (size_t j = 0; j < o->n; j++)
             rest = nh_add(d, rest, nh_mul(d, o->chart->symbol[1 + o->m + j], nh_model_Y(o, j, o->rho[i])));
