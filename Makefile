@@ -18,15 +18,23 @@
 #   make site      the documentation as static pages, with a gallery, into build/site (wants pandoc and Python 3)
 #   make threads   look for data races with ThreadSanitizer: two contexts of the library, and commands with --threads 4
 #   make fuzz      feed the readers with garbage for SECONDS=60 each (needs clang)
+#   make help      this list
+#   make test-NAME one test program: make test-deck builds and runs tests/test_deck.c
+#   make debug     the program for a debugger, without optimisation, into build-debug
+#   make coverage  which lines the tests run, as pages in build-coverage/coverage (wants gcovr)
+#   make compile_commands.json   how each file is compiled, for editors
+#   make format    the sources as .clang-format has them (clang-format 14)
 #   make clean
 
-CC      = gcc
+# Compiled once, kept by ccache where it is installed (CCACHE= for without).
+CCACHE := $(if $(shell command -v ccache 2>/dev/null),ccache )
+CC      = $(CCACHE)gcc
 PREFIX  = /usr/local
 LIBDIR  = $(PREFIX)/lib
 VERSION = 0.1.0
 # Of the binary interface nhsym.h: another number when a program that was compiled with the old one would no longer run (docs/changes.md).
 SONAME  = libnhsym.so.1
-BUILD   = build$(if $(SANITIZE),-$(if $(filter thread,$(SANITIZE)),threads,sanitize))
+BUILD   = build$(if $(SANITIZE),-$(if $(filter thread,$(SANITIZE)),threads,sanitize))$(KIND:%=-%)
 JOBS    = $(shell nproc 2>/dev/null || echo 2)
 comma   = ,
 
@@ -38,7 +46,10 @@ WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-
 USED     = -fno-sanitize=object-size$(comma)pointer-overflow$(comma)null
 SANE     = -fsanitize=$(if $(filter thread,$(SANITIZE)),thread,address$(comma)undefined -fno-sanitize-recover=all $(USED)) -fno-omit-frame-pointer
 # -g1: functions and lines, for whoever reads a call stack; -g for a debugger's variables, by CFLAGS=-g.
-OPT      = $(if $(SANITIZE),-Og -g1 -Wno-maybe-uninitialized $(SANE),-O2 -g1)
+# KIND: debug, coverage.
+OPT      = $(or $(OPT_$(KIND)),$(if $(SANITIZE),-Og -g1 -Wno-maybe-uninitialized $(SANE),-O2 -g1))
+OPT_debug    = -O0 -g3 -Wno-maybe-uninitialized
+OPT_coverage = -O0 -g1 -Wno-maybe-uninitialized --coverage
 # A product and a sum are rounded one after the other, on every machine and in every build.
 # CFLAGS, CPPFLAGS and LDFLAGS of the environment and the command line come after the project's own.
 # Nothing of the folder where it is built stands in what is built: two builds give the same bytes.
@@ -99,7 +110,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house site fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized
+.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed classification house site fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized help debug coverage format compile_commands.json
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -136,6 +147,34 @@ tests: $(TESTS) $(if $(SANITIZE),,library $(if $(NHSYM_SWEEPS),benches))
 benches: $(BENCHES) library
 
 same-tests: $(SAME)
+
+# ---- for whoever works on the sources ----
+
+help:
+	@sed -n 's/^#   make/  make/p' Makefile
+
+test-%: $(BUILD)/tests/test_%
+	@$<
+
+debug:
+	@$(MAKE) --no-print-directory KIND=debug all
+
+# A test that runs the program takes that of this build.
+coverage: test-packages
+	@sh tests/packages.sh gcovr
+	@$(MAKE) --no-print-directory -j$(JOBS) KIND=coverage all library tests
+	@sh tests/run.sh build-coverage || :
+	@mkdir -p build-coverage/coverage
+	@gcovr -j $(JOBS) -r . -f src/ build-coverage --html-details build-coverage/coverage/index.html --print-summary
+
+compile_commands.json:
+	@for file in $(wildcard src/*/*.c tests/*.c); do \
+	    printf '%s{"directory": "%s", "file": "%s", "command": "%s -c %s"}' "$${next-[}" '$(CURDIR)' "$$file" '$(subst ','\'',$(subst ",\",$(COMPILE)))' "$$file"; \
+	    next=','; done >$@ && echo ']' >>$@
+
+FORMATTER = clang-format-14
+format:
+	@$(FORMATTER) -i $(wildcard src/*/*.[ch])
 
 bench: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all benches $(BUILD)/tests/nhsym-shared
@@ -360,6 +399,6 @@ uninstall: all library
 	find . -mindepth 1 -depth -type d $(if $(DESTDIR),,-path '*/nhsym*') | while read -r folder; do rmdir "$(DESTDIR)/$$folder" 2>/dev/null || :; done
 
 clean:
-	rm -rf build build-sanitize build-threads build-fuzz
+	rm -rf build build-sanitize build-threads build-fuzz build-debug build-coverage
 
 -include $(OBJECTS:.o=.d) $(CLI:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)
