@@ -14,7 +14,7 @@
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
 #   make parameters give every system other parameter values, compare its formulas, and write docs/parameters.md (it continues where it was stopped; SEED=N)
 #   make perturbed analyse copies of every system with a small term added, and print the table
-#   make house     count files, functions and headers, and write the tables of docs/architecture.md
+#   make house     count files, functions and headers, and write the tables of docs/modules.md
 #   make site      the documentation as static pages, with a gallery, into build/site (wants pandoc and Python 3)
 #   make threads   look for data races with ThreadSanitizer: two contexts of the library, and commands with --threads 4
 #   make fuzz      feed the readers with garbage for SECONDS=60 each (needs clang)
@@ -221,7 +221,7 @@ random perturbed: test-packages
 # Between its two marks in the page.
 house: all
 	@sh tests/house.sh $(BUILD) >$(BUILD)/house.md
-	@sed -e '/<!-- house -->/r $(BUILD)/house.md' -e '/<!-- house -->/,/<!-- end -->/{/<!--/!d}' docs/architecture.md >$(BUILD)/architecture.md && mv $(BUILD)/architecture.md docs/architecture.md
+	@sed -e '/<!-- house -->/r $(BUILD)/house.md' -e '/<!-- house -->/,/<!-- end -->/{/<!--/!d}' docs/modules.md >$(BUILD)/modules.md && mv $(BUILD)/modules.md docs/modules.md
 
 # The gallery shows these; everything else about them is the program's.
 GALLERY = sleigh euler_disk crane lagrange_top rolling_disk snakeboard rattleback chaplygin_ball double_pendulum kepler toda_lattice roller_racer

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Is the house in order?  What docs/architecture.md promises, checked on the sources.
+# Is the house in order?  What docs/modules.md promises, checked on the sources.
 # usage: check_layers.sh [BUILD]          prints one line per offence; silent and 0 when there is none
 build=${1:-build}
 cd "$(dirname "$0")/.." || exit 2
@@ -27,20 +27,20 @@ circles=$(awk '/^[ \t]*#[ \t]*include[ \t]*".*[.]h"/ {
 }' src/*/*.c src/*/*.h | awk '$1 != $2' | tsort 2>&1 >/dev/null | sed -n 's/^tsort: \(.*\/.*\)/\1/p' | tr '\n' ' ')
 [ -z "$circles" ] || echo "modules that include each other in a circle: $circles" >>"$offences"
 
-# ---- a third-party header stands where docs/architecture.md says, and nowhere else ----
+# ---- a third-party header stands where docs/modules.md says, and nowhere else ----
 standard=" assert.h complex.h ctype.h errno.h float.h inttypes.h limits.h math.h setjmp.h stdarg.h stdatomic.h stdbool.h stddef.h stdint.h stdio.h stdlib.h string.h time.h"
 standard="$standard dirent.h fcntl.h getopt.h pthread.h signal.h strings.h sys/resource.h sys/stat.h sys/time.h sys/types.h sys/wait.h unistd.h "
 found=$(awk -v standard="$standard" '/^[ \t]*#[ \t]*include[ \t]*</ {
     split($0, part, /[<>]/)
     if (!index(standard, " " part[2] " ")) print part[2], FILENAME
 }' src/*/*.c src/*/*.h | sort -u)
-promised=$(sed -n 's/^| `<\([^>]*\)>` | \(.*\) | .*/\1 \2/p' docs/architecture.md | tr -d '`,' |
+promised=$(sed -n 's/^| `<\([^>]*\)>` | \(.*\) | .*/\1 \2/p' docs/modules.md | tr -d '`,' |
     awk '{ for (i = 2; i <= NF; i++) print $1, $i }' | sort -u)
 printf '%s\n' "$found" | while read -r line; do
-    printf '%s\n' "$promised" | grep -qxF "$line" || echo "${line#* }: includes <${line% *}>, which docs/architecture.md does not say"
+    printf '%s\n' "$promised" | grep -qxF "$line" || echo "${line#* }: includes <${line% *}>, which docs/modules.md does not say"
 done >>"$offences"
 printf '%s\n' "$promised" | while read -r line; do
-    printf '%s\n' "$found" | grep -qxF "$line" || echo "docs/architecture.md: ${line#* } does not include <${line% *}>"
+    printf '%s\n' "$found" | grep -qxF "$line" || echo "docs/modules.md: ${line#* } does not include <${line% *}>"
 done >>"$offences"
 
 # ---- exported symbols start with nh_ (the sanitizers add their own) ----
@@ -106,9 +106,9 @@ done >>"$offences"
 # ---- the pages name files that are there ----
 grep -noE '`(src|tests|docs|systems|analyses)/[A-Za-z0-9_/.-]+\.[a-z0-9]+`' README.md docs/*.md | tr -d '`' | grep -v '/[A-Z]*[._]' |
     while IFS=: read -r page line file; do [ -e "$file" ] || echo "$page:$line: $file is not there"; done >>"$offences"
-grep '^| `src/[a-z]*` |' docs/architecture.md | tr -d ' `' | cut -d '|' -f 2 | while read -r folder; do
-    grep "^| .$folder. |" docs/architecture.md | cut -d '|' -f 3 | grep -o '`[a-z0-9_]*`' | tr -d '`' | while read -r module; do
-        ls "$folder" | grep -q "^$module[._]\|$module[.]" || echo "docs/architecture.md: $folder has no $module"
+grep '^| `src/[a-z]*` |' docs/modules.md | tr -d ' `' | cut -d '|' -f 2 | while read -r folder; do
+    grep "^| .$folder. |" docs/modules.md | cut -d '|' -f 3 | grep -o '`[a-z0-9_]*`' | tr -d '`' | while read -r module; do
+        ls "$folder" | grep -q "^$module[._]\|$module[.]" || echo "docs/modules.md: $folder has no $module"
     done
 done >>"$offences"
 
@@ -121,8 +121,8 @@ awk -v most_lines=60 -v most_file=500 '
     { before = $0 }
     END { if (last > most_file) print previous ": " last " lines" }' src/*/*.c src/*/*.h >>"$offences"
 
-# ---- circles, long functions, long lines and small numbers outside named constants: no more than docs/architecture.md says (`make house`) ----
-{ grep -A 2 '^| headers in circles' docs/architecture.md && sh tests/house.sh --counts; } | awk -F '|' '
+# ---- circles, long functions, long lines and small numbers outside named constants: no more than docs/modules.md says (`make house`) ----
+{ grep -A 2 '^| headers in circles' docs/modules.md && sh tests/house.sh --counts; } | awk -F '|' '
     NR == 1 { for (i = 2; i < NF; i++) name[i] = $i }
     NR == 3 { for (i = 2; i < NF; i++) most[i] = $i }
     NR == 4 { for (i = 2; i < NF; i++) if ($i + 0 > most[i] + 0) print "src:" name[i] "are" $i "and were" most[i] "at most" }' >>"$offences"

@@ -1,4 +1,4 @@
-# The sources in numbers, as two Markdown tables: per folder, and over all functions.  Run from the top folder; `make house` writes them into docs/architecture.md.
+# The sources in numbers, as two Markdown tables: per folder, and over all functions.  Run from the top folder; `make house` writes them into docs/modules.md.
 #
 #     sh tests/house.sh BUILD     with the object files of that folder, for exported functions
 #     sh tests/house.sh --form    only the headings and the first column

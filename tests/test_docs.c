@@ -1,4 +1,4 @@
-/* What is written about the program is true: the house is as docs/architecture.md says, the pages quote what the program prints, and
+/* What is written about the program is true: the house is as docs/modules.md says, the pages quote what the program prints, and
  * the commands on them work.
  *
  * Markers in README.md and docs/ *.md, each directly before a fenced block:
