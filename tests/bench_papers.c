@@ -13,7 +13,9 @@
 #include "commands/verify.h"
 #include "evaluate/tape.h"
 #include "geometry/determining.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "integrals/bracket.h"
 #include "reduction/ideal_chain.h"
 

@@ -588,6 +588,9 @@ static double helmholtz(const document *d)
 
 #include "bench_papers_figures.h"
 
+#include "graph/dag.h"
+#include "graph/node.h"
+
 /* ---- by name ---- */
 
 static void by(const row *r, const document *d, double *printed, double *meant, char *value, size_t size)

@@ -2,6 +2,8 @@
 #ifndef NH_TESTS_BENCH_PAPERS_VARIATION_H
 #define NH_TESTS_BENCH_PAPERS_VARIATION_H
 
+#include "graph/dag.h"
+
 static const char *const PLACE[3] = {"phi", "x", "y"};
 
 /* Any accelerations, and any variation: dt, then by PLACE; that of (1) has functions of t and of t, q. */

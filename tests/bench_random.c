@@ -10,6 +10,8 @@
 #include "catalogue.h"
 #include "random_system.h"
 
+#include "graph/dag.h"
+
 int main(int argc, char **argv)
 {
     size_t n = argc > 1 ? strtoull(argv[1], NULL, 10) : 200, known = 0, missing = 0, wrong = 0, unread = 0, uncertain = 0, found = 0, rounded = 0, almosts = 0, fast = 0;

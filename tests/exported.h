@@ -6,6 +6,7 @@
 
 #include "base/linalg.h"
 #include "commands/export.h"
+#include "graph/node.h"
 
 enum { EXPORTED_MOST = 400, EXPORTED_ENTRIES = 1600 }; /* symbols known to a function; entries of an array */
 

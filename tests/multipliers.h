@@ -20,6 +20,10 @@
 #include "graph/diff.h"
 #include "graph/num_long.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "integrals/points.h"
 
 /* ---- expressions in ball arithmetic ---- */

@@ -4,6 +4,8 @@
 
 #include "mechanics.h"
 
+#include "graph/dag.h"
+
 static inline nh_system *system_of(const char *text)
 {
     nh_error error = {0};

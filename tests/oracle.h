@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "mechanics.h"
+#include "graph/dag.h"
 #include "integrals/symmetry.h"
 
 static inline cJSON *oracle_read(const char *path)

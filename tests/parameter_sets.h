@@ -20,6 +20,8 @@
 #include "document/facts.h"
 #include "commands/analyze.h"
 #include "commands/reduce_internal.h"
+#include "graph/dag.h"
+#include "graph/num.h"
 #include "integrals/gradient_rank.h"
 #include "problem/analysis_file.h"
 #include "system/sample.h"

@@ -7,6 +7,8 @@
 #include "catalogue.h"
 #include "rewrite.h"
 #include "scratch.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "system/sample.h"
 
 enum { PERTURBATIONS = 3 };

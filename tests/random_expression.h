@@ -8,6 +8,9 @@
 #include <stdint.h>
 
 #include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/parse.h"
 
 enum { SYMBOLS = 4 };

@@ -14,6 +14,8 @@
 #include "base/memory.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "graph/print.h"
 
 typedef enum { FREE, HOLONOMIC, LINEAR, AFFINE, RHEONOMIC, NONLINEAR, HOMOGENEOUS, CONSTRAINT_KINDS } constraint_kind;

@@ -5,6 +5,9 @@
 #include "oracle.h"
 #include "program.h"
 
+#include "graph/dag.h"
+#include "graph/node.h"
+
 static inline const char *text_of(const cJSON *item, const char *key)
 {
     const cJSON *value = cJSON_GetObjectItem(item, key);

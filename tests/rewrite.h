@@ -7,6 +7,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 #include "system/system.h"
 

@@ -8,6 +8,7 @@
 
 #include "exact/normal.h"
 #include "commands/analyze.h"
+#include "graph/dag.h"
 
 /* ---- running ---- */
 

@@ -4,6 +4,8 @@
 
 #include <stdio.h>
 
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "integrals/independence.h"
 #include "integrals/real_where.h"
 #include "integrals/prove.h"

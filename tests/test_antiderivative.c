@@ -9,6 +9,7 @@
 #include "exact/antiderivative.h"
 #include "graph/print.h"
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "typed.h"
 
 enum { names = 6, samples = 12 };

@@ -4,6 +4,8 @@
 
 #include "exact/ball_eigenvalues.h"
 #include "exact/ball_fit.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 
 static nh_dag *dag;
 static nh_ball *ball;

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "exact/ball_series.h"
+#include "graph/dag.h"
 #include "graph/parse.h"
 
 enum { degree = 12, points = 41 };

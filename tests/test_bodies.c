@@ -4,6 +4,8 @@
 #include "chain.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "oracle.h"
 #include "sweep.h"
 

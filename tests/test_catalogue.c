@@ -4,6 +4,8 @@
 #include "catalogue.h"
 #include "sweep.h"
 
+#include "graph/dag.h"
+
 /* Sanitizers slow the search down many times: time must not decide what is found. */
 static const double patience = 600;
 

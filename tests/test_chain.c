@@ -1,5 +1,6 @@
 /* Symmetries of the metric of open chains, joint by joint: the crane's numbers, and every field found leaves the metric alone. */
 #include "chain.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "mechanics.h"
 #include "reduction/chain.h"

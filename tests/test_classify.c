@@ -14,6 +14,7 @@
 #include "sweep.h"
 #include "commands/classify.h"
 #include "commands/verify.h"
+#include "graph/dag.h"
 
 /* ---- pencils ---- */
 

@@ -8,6 +8,7 @@
 #include "count/closed_primitives.h"
 #include "count/construct.h"
 #include "count/construct_rates.h"
+#include "graph/dag.h"
 #include "graph/print.h"
 #include "names.h"
 #include "search/naming.h"

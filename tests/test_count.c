@@ -7,6 +7,7 @@
 #include "count/completeness.h"
 #include "count/count_internal.h"
 #include "count/one_side.h"
+#include "graph/dag.h"
 #include "problem/analysis_file.h"
 #include "names.h"
 #include "sweep.h"

@@ -10,6 +10,8 @@
 #include "geometry/distribution.h"
 #include "graph/diff.h"
 #include "commands/analyze.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 enum { most_coordinates = 6 };
 

@@ -2,6 +2,7 @@
  * zero, where bodies are aligned, and at random states; energy is lost at the rate 2 R; forces at points do the work that they should. */
 #include <stdio.h>
 
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "mechanics.h"
 #include "sweep.h"

@@ -8,6 +8,8 @@
 #include "base/memory.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "graph/print.h"
 #include "names.h"
 #include "system/sample.h"

@@ -6,6 +6,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "commands/verify.h"
+#include "graph/dag.h"
 
 #define S "(x'/(a*cos(phi)))"                       /* v/a */
 #define R "sqrt(" S "^2 + k^2*phi'^2)"

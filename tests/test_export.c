@@ -10,6 +10,7 @@
 
 #include "commands/simulate.h"
 #include "document/export.h"
+#include "graph/node.h"
 #include "scratch.h"
 #include "sweep.h"
 

@@ -5,6 +5,7 @@
 
 #include "exact/normal.h"
 #include "geometry/distribution.h"
+#include "graph/dag.h"
 
 typedef struct {
     const char *parameters, *coordinates, *lagrangian;

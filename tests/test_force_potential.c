@@ -5,6 +5,7 @@
 
 #include "commands/analyze.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "integrals/force_potential.h"
 

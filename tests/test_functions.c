@@ -9,6 +9,8 @@
 #include "mechanics.h"
 #include "program.h"
 #include "evaluate/named_value.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "sweep.h"
 
 static const char central[] = "name: central\nparameters: [{name: m, value: 1}]\nfunctions: [\"V(r)\"]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"

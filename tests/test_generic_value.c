@@ -2,6 +2,7 @@
 #include <cjson/cJSON.h>
 
 #include "exact/generic_value.h"
+#include "graph/dag.h"
 #include "mechanics.h"
 #include "program.h"
 #include "sweep.h"

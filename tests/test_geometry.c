@@ -6,6 +6,7 @@
 
 #include "exact/normal.h"
 #include "geometry/distribution.h"
+#include "graph/dag.h"
 
 static const double TIGHT = 1e-12; /* relative to the sum of the magnitudes of the terms */
 

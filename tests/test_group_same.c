@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "reduction/group.h"
 #include "rewrite.h"
 #include "sweep.h"

@@ -9,6 +9,7 @@
 #include "program.h"
 #include "sweep.h"
 #include "document/formula.h"
+#include "graph/dag.h"
 
 /* ---- a reader of XML, as strict as a parser: tags match, attributes are quoted and distinct from text, entities are known ---- */
 

@@ -7,6 +7,7 @@
 #include "exact/field_root.h"
 #include "exact/generic_value.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "identities.h"
 #include "mechanics.h"
 #include "program.h"

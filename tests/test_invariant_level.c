@@ -7,6 +7,8 @@
 
 #include "exact/residue.h"
 #include "geometry/model.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "program.h"
 #include "sweep.h"
 

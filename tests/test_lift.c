@@ -6,6 +6,7 @@
 #include "count/jet_equations.h"
 #include "count/lift.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 
 typedef struct {
     const char *name, *text;

@@ -7,6 +7,7 @@
 #include "commands/analyze.h"
 #include "commands/verify.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "integrals/affine_field.h"
 #include "integrals/centre_of_mass.h"
 #include "integrals/noether_equation.h"

@@ -9,6 +9,7 @@
 #include "commands/analyze.h"
 #include "exact/invariant_forms.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "typed.h"
 

@@ -5,6 +5,8 @@
 
 #include "document/page.h"
 #include "evaluate/tape.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "program.h"
 #include "sweep.h"
 

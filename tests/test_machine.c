@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "evaluate/machine.h"
+#include "graph/dag.h"
 #include "mechanics.h"
 #include "motion/trajectory.h"
 #include "random_expression.h"

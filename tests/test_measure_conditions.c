@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/linalg.h"
+#include "graph/node.h"
 
 enum { most = 4, most_parameters = 24 };
 

@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "base/linalg.h"
+#include "graph/dag.h"
 #include "mechanics.h"
 #include "motion/method.h"
 #include "motion/projection.h"

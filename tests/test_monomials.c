@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/monomials.h"
 
 static nh_ex of_name(const nh_system *s, const char *name)

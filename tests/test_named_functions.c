@@ -18,7 +18,11 @@
 #include "evaluate/tape_complex.h"
 #include "exact/ball.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/parse.h"
 
 /* ---- asking ---- */

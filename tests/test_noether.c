@@ -1,6 +1,8 @@
 /* The discrete problem piece by piece: points, ansatz, rows. */
 #include "families.h"
 
+#include "graph/dag.h"
+
 /* ---- points ---- */
 
 #define ON_A_LINE(lagrangian) "name: line\ncoordinates:\n  - {name: x, type: length}\nlagrangian: " lagrangian "\n"

@@ -6,6 +6,7 @@
 
 #include "commands/analyze.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 
 typedef struct {
     const char *source, *text;

@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/parse.h"
 #include "graph/print.h"
 #include "program.h"

@@ -3,6 +3,8 @@
 
 #include "perturbed.h"
 
+#include "graph/dag.h"
+
 static const char *const systems[] = {"appell_hamel", "contact_oscillator", "free_particle", "henon_heiles_kk", "isotropic_oscillator", "kepler", "knife_edge", "lagrange_top",
                                       "neumann", "nonholonomic_particle", "relativistic_particle", "sleigh", "spherical_pendulum", "suslov_principal", "two_wheel_carriage"};
 

@@ -14,6 +14,7 @@
 #include "scratch.h"
 #include "search/explicit_motion.h"
 #include "commands/verify.h"
+#include "graph/dag.h"
 #include "system/sample.h"
 #include "sweep.h"
 

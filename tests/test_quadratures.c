@@ -7,7 +7,9 @@
 
 #include "commands/analyze.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/real_where.h"
 #include "problem/analysis_file.h"

@@ -8,6 +8,8 @@
 #include "scratch.h"
 #include "sweep.h"
 
+#include "graph/dag.h"
+
 enum { systems = 70, generated = 140 };
 
 /* The search is bounded by the size of its stages, not by time, so that it finds the same on every machine. */

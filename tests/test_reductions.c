@@ -10,6 +10,7 @@
 #include "reduction/reach.h"
 #include "reduction/subspace.h"
 #include "document/reduction.h"
+#include "graph/dag.h"
 #include "reductions.h"
 #include "scratch.h"
 #include "sweep.h"

@@ -15,6 +15,8 @@
 #include "exact/relation_express.h"
 #include "exact/relation_unknown.h"
 #include "evaluate/tape.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "sweep.h"
 #include "typed.h"
 

@@ -10,6 +10,8 @@
 #include "rewrite.h"
 #include "scratch.h"
 
+#include "graph/num.h"
+
 static const char *const systems[] = {"appell_hamel", "contact_oscillator", "euler_top", "free_particle", "heisenberg_particle", "henon_heiles_kk", "isotropic_oscillator",
                                       "kepler", "knife_edge", "lagrange_top", "lane_emden", "neumann", "nonholonomic_oscillator", "nonholonomic_particle", "perpendicular_velocities", "relativistic_particle",
                                       "sleigh", "sleigh_inertia", "spherical_pendulum", "suslov", "suslov_principal", "two_wheel_carriage", "vertical_disk"};

@@ -8,6 +8,7 @@
 #include "sweep.h"
 #include "motion/trajectory.h"
 #include "commands/simulate.h"
+#include "graph/dag.h"
 
 static const char *const planar =
     "name: test\ncoordinates: [{name: x}, {name: y}, {name: z}]\n"

@@ -10,6 +10,7 @@
 #include "exact/ball_ode.h"
 #include "graph/print.h"
 #include "commands/analyze.h"
+#include "graph/dag.h"
 
 /* ---- asking ---- */
 

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "evaluate/tape.h"
 #include "document/source.h"
+#include "graph/dag.h"
 #include "scratch.h"
 #include "typed.h"
 

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "commands/simulate.h"
+#include "graph/node.h"
 #include "mechanics.h"
 #include "motion/trajectory.h"
 #include "sweep.h"

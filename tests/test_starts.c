@@ -5,6 +5,7 @@
 #include "mechanics.h"
 #include "sweep.h"
 #include "commands/simulate.h"
+#include "graph/node.h"
 #include "motion/dynamics.h"
 #include "motion/trajectory.h"
 

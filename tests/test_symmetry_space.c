@@ -6,6 +6,7 @@
 #include "geometry/closure.h"
 #include "integrals/symmetry.h"
 #include "exact/relation_space.h"
+#include "graph/dag.h"
 #include "mechanics.h"
 #include "program.h"
 #include "sweep.h"

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "names.h"
+#include "graph/node.h"
 #include "system/units.h"
 #include "sweep.h"
 

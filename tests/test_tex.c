@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "graph/print.h"
 #include "document/typeset.h"
+#include "graph/dag.h"
 #include "numbers.h"
 #include "program.h"
 #include "random_expression.h"

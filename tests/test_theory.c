@@ -515,6 +515,8 @@ Test(theory, the_geometry_is_80_columns_wide_and_there_when_it_is_wanted)
 /* ---- the reduction ---- */
 
 #include "base/linalg.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 static size_t crane_settings(const cJSON *set, nh_setting *setting)
 {

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "integrals/total_derivative.h"
 #include "mechanics.h"

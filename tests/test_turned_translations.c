@@ -7,6 +7,8 @@
 
 #include "count/count_internal.h"
 #include "count/turned_translations.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "names.h"
 #include "sweep.h"
 

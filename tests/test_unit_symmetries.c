@@ -4,6 +4,8 @@
 
 #include "document/screen.h"
 #include "geometry/distribution.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "integrals/symmetry.h"
 #include "graph/print.h"
 #include "reduction/group.h"

@@ -11,6 +11,7 @@
 #include "document/simulation.h"
 #include "document/verification.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "sweep.h"
 
 static const char SLEIGH[] = "systems/sleigh.yaml";

@@ -4,6 +4,7 @@
 
 #include <criterion/criterion.h>
 
+#include "graph/dag.h"
 #include "graph/parse.h"
 
 static inline bool any_symbol(void *dag, const char *name, nh_ex *out, nh_parse_fault *fault)

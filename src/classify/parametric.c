@@ -4,6 +4,8 @@
 
 #include "base/progress.h"
 #include "classify/parametric_internal.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_factors = 16, most_degree = 12, largest_series = 20000, most_parameters = 3000 };
 

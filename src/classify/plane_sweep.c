@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/progress.h"
+#include "graph/num.h"
 
 typedef nh_classify_search search;
 

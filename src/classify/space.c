@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "classify/plane_internal.h"
 #include "classify/sections.h"
+#include "graph/num.h"
 
 enum { least_primes = 4, first_sections = 4, parts = 3 };
 

@@ -7,6 +7,8 @@
 
 #include "base/memory.h"
 #include "exact/form.h"
+#include "graph/function.h"
+#include "graph/num.h"
 
 enum { most_variables = 16, most_terms = 2000 };
 

@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "commands/verify_internal.h"
+#include "graph/node.h"
 #include "integrals/gradient_rank.h"
 #include "search/currents.h"
 #include "search/dependence.h"

@@ -15,6 +15,8 @@
 #include "integrals/rows.h"
 #include "commands/benchmark_fit.h"
 #include "commands/benchmark_internal.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "search/spans.h"
 
 enum { most_levels = 6, densities = 3, ways = 8, heldout_points = 400, most_field_columns = 400, most_repeats = 3 };

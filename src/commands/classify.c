@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "commands/classify_internal.h"
 #include "exact/normal.h"
+#include "graph/num.h"
 #include "integrals/exact_points.h"
 
 enum { chosen_degree = 4 };

@@ -6,6 +6,8 @@
 
 #include "base/progress.h"
 #include "commands/classify_internal.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 typedef nh_classified_plane plane;
 

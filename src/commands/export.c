@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "commands/export_internal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 
 static const struct {

@@ -7,7 +7,9 @@
 #include "commands/export_internal.h"
 #include "exact/normal.h"
 #include "geometry/bordered.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 
 /* Symbols and labels of a model's states. */
 typedef struct {

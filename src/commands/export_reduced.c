@@ -13,7 +13,10 @@
 
 #include "commands/export_internal.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 typedef struct {
     nh_export *x;

@@ -5,6 +5,7 @@
 
 #include "base/progress.h"
 #include "commands/simulate.h"
+#include "graph/node.h"
 
 enum { outputs = 601, scan_points = 128, scan_values = 401 };
 

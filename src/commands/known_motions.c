@@ -8,6 +8,7 @@
 
 #include "graph/diff.h"
 #include "commands/benchmark_internal.h"
+#include "graph/node.h"
 
 static const double least_off = 1e-11; /* rounding of a closed form and of the motion that it is compared with */
 /* a condition on the initial state is satisfied when left and right side differ by less */

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "base/progress.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "problem/analysis_file.h"
 
 /* ---- the state ---- */

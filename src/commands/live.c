@@ -4,7 +4,11 @@
 
 #include "commands/export_internal.h"
 #include "geometry/bordered.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/terms.h"
 
 enum { most_states = 20 };

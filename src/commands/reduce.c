@@ -12,6 +12,7 @@
 #include "reduction/subspace.h"
 #include "commands/reduce_internal.h"
 #include "commands/simulate.h"
+#include "graph/dag.h"
 
 const char *nh_stage_kind_name(nh_stage_kind kind)
 {

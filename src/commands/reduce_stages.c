@@ -10,6 +10,8 @@
 #include "reduction/reach.h"
 #include "reduction/subspace.h"
 #include "commands/reduce_internal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 
 /* ---- a stage ---- */
 

@@ -4,6 +4,7 @@
 
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 
 enum { large_length = 3000 };
 

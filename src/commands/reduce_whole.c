@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "commands/reduce_internal.h"
+#include "graph/dag.h"
 
 /* Reads "3; 1, 2" as blocks; the numbers are those of the generators of the action, from 1. */
 static size_t read_chain(const char *text, size_t d, size_t *size, size_t *order, nh_error *error)

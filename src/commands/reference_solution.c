@@ -6,6 +6,7 @@
 #include "graph/diff.h"
 #include "graph/terms.h"
 #include "commands/benchmark_internal.h"
+#include "graph/dag.h"
 #include "motion/turns.h"
 
 /* relative rate at the probes below which a known current counts as conserved with these parameters */

@@ -5,6 +5,7 @@
 
 #include "commands/robustness_internal.h"
 #include "evaluate/constant_text.h"
+#include "graph/node.h"
 
 enum { most_axes = 2, values_of_one = 10, values_of_two = 6, most_values = 100 };
 static const double decades = 100; /* a range from x to 100 x or more is divided in equal ratios */

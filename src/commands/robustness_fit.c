@@ -16,6 +16,8 @@
 #include "commands/benchmark_fit.h"
 #include "search/spans.h"
 #include "commands/robustness_internal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 
 enum { levels = 6, most_ways = 4, most_field_columns = 400, truth_density = 10, density = 4, most_degree = 4 };
 static const double radius[levels] = {1, 0.1, 1e-2, 1e-3, 1e-4, 1e-5},

@@ -7,6 +7,7 @@
 
 #include "commands/scan_internal.h"
 #include "evaluate/constant_text.h"
+#include "graph/num.h"
 
 static const size_t most_points = 10000000;
 

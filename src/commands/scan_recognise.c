@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "commands/scan_internal.h"
+#include "graph/num.h"
 #include "integrals/recognise.h"
 
 /* a random number is near one of so few with probability 1/1000 */

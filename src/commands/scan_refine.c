@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "commands/scan_internal.h"
+#include "graph/num.h"
 
 static const double finest = 1e-11, coarsest = 1e-6; /* relative errors of a located value */
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "graph/dag.h"
 
 #include "graph/diff.h"
 #include "graph/terms.h"

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "commands/simulate_internal.h"
+#include "graph/dag.h"
 
 /* A part of what the user typed, without blanks around it. */
 typedef struct {

@@ -11,6 +11,7 @@
 #include "base/budget.h"
 #include "base/linalg.h"
 #include "base/progress.h"
+#include "graph/node.h"
 #include "motion/first_state.h"
 
 nh_analysis_file *nh_simulate_initial(const char *from, const char *initial, nh_error *error)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "commands/simulate_internal.h"
+#include "graph/node.h"
 #include "problem/table.h"
 
 typedef enum { COLUMN_STATE, COLUMN_PARAMETER } column_kind;

@@ -8,6 +8,7 @@
 #include "graph/diff.h"
 #include "graph/terms.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "integrals/exact_points.h"
 #include "integrals/independence.h"
 #include "search/branch.h"

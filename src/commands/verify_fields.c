@@ -6,6 +6,8 @@
 
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 /* The components that the user gave: along t, the coordinates and, optionally, the velocities of the chart. */
 typedef struct {

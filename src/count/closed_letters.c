@@ -6,7 +6,11 @@
 
 #include "exact/kernel.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/terms.h"
 
 enum { largest_form = 2000, largest_inertia = 4, least_down = 1 };

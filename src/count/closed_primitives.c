@@ -5,6 +5,9 @@
 #include "exact/normal.h"
 #include "graph/diff.h"
 #include "count/closed_letters.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 enum { largest_form = 2000 };
 

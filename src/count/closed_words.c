@@ -7,7 +7,11 @@
 
 #include "exact/residue_matrix.h"
 #include "count/closed_letters.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 static const double tiny = 1e-9;
 

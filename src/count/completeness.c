@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "graph/dag.h"
 
 /* The highest degree that the rows settle, and what is missing at the next one. */
 static void read_rows(nh_completeness *c, bool all)

@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "exact/residue_matrix.h"
+#include "graph/dag.h"
 
 enum { spare = 24, spare_few = 8, most_points = 60 };
 

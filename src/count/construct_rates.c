@@ -10,6 +10,8 @@
 
 #include "base/progress.h"
 #include "count/solution_matrix.h"
+#include "graph/dag.h"
+#include "graph/num.h"
 
 enum { beyond_degree = 3, most_points = 20, most_coefficients = 4000, most_solutions = 120, most_squares = 64 };
 

@@ -9,6 +9,8 @@
 #include "count/turned_translations.h"
 #include "exact/jet_independent.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 enum { few_steps = 3, most_parameters = 4000, largest_series = 20000, steps_beyond = 1, many_coordinates = 6 };
 /* part of the work for the number of integrals of a degree whose rank is known already */

@@ -3,6 +3,7 @@
 
 #include "exact/residue_matrix.h"
 #include "count/count_internal.h"
+#include "graph/node.h"
 
 enum { most_failures = 80 };
 

@@ -20,6 +20,7 @@
 #include "base/progress.h"
 #include "exact/ball_eigenvalues.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 
 typedef struct {

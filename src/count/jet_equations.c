@@ -7,7 +7,10 @@
 #include "exact/kernel.h"
 #include "count/one_side.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "integrals/exact_points.h"
 
 enum { largest_form = 2000, most_nodes = 4000 };

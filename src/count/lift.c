@@ -8,6 +8,8 @@
 #include "exact/fraction.h"
 #include "exact/jet_independent.h"
 #include "exact/residue_matrix.h"
+#include "graph/dag.h"
+#include "graph/num.h"
 #include "integrals/fixed.h"
 
 enum {

@@ -2,6 +2,9 @@
 
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 static void keep(nh_region *r, nh_ex u, bool above)
 {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "exact/residue_matrix.h"
+#include "graph/num.h"
 
 enum { spare = 8, most_tries = 200, longest = 1000 };
 

@@ -6,6 +6,7 @@
 
 #include "count/adapted_frame.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 
 enum { points = 4, velocities = 3, samples = points * velocities, attempts = 40, largest_proof = 5000 };

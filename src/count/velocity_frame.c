@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/terms.h"
 
 enum { largest_form = 2000 };

@@ -9,6 +9,7 @@
 #include "document/formula.h"
 #include "document/screen.h"
 #include "document/sheet.h"
+#include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/fixed.h"
 #include "integrals/real_where.h"

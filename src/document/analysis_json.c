@@ -14,6 +14,7 @@
 #include "document/motion_sheet.h"
 #include "document/analysis_json_internal.h"
 #include "document/provenance.h"
+#include "graph/node.h"
 
 typedef struct {
     const nh_analysis *r;

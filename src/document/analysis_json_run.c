@@ -3,6 +3,7 @@
 #include "document/time_series.h"
 #include "document/simulation.h"
 #include "document/analysis_json_internal.h"
+#include "graph/node.h"
 
 /* ---- the motion ---- */
 

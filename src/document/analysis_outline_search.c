@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "document/analysis_outline_internal.h"
 #include "document/facts.h"
+#include "graph/node.h"
 #include "graph/print.h"
 
 /* The spectra of both routes over the index; null values are drawn at the bottom. */

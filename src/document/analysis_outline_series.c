@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "document/analysis_outline_internal.h"
 #include "document/formula.h"
+#include "graph/node.h"
 
 /* sum' c_k T_k(s) by Clenshaw's recurrence. */
 static double chebyshev(const double *c, size_t degree, double s)

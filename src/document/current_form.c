@@ -10,6 +10,7 @@
 #include "document/current_words.h"
 #include "exact/normal.h"
 #include "exact/relation_express.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "search/counted.h"
 

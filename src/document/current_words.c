@@ -5,6 +5,7 @@
 
 #include "document/symmetry_words.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 
 static bool is_minus(const nh_current *f) { return !strncmp(f->meaning, "minus", 5); }
 

@@ -12,6 +12,7 @@
 #include "document/formula.h"
 #include "document/live.h"
 #include "document/reduction.h"
+#include "graph/node.h"
 
 static const char *const targets[] = {"c", "python", "sympy", "matlab", "js", "latex", "json"};
 enum { target_count = sizeof targets / sizeof *targets };

@@ -3,6 +3,9 @@
 
 #include "document/export_code.h"
 
+#include "graph/dag.h"
+#include "graph/node.h"
+
 const char *const *nh_export_members(const nh_export *x, const nh_source_language *language, nh_arena *arena)
 {
     const nh_system *s = x->system;

@@ -8,6 +8,7 @@
 #include "document/tex_internal.h"
 #include "document/typeset.h"
 #include "graph/measure.h"
+#include "graph/node.h"
 
 enum { widest_row = 60, longest_whole = 150 }; /* letters of a line; the longest formula without names for its parts */
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/fixed.h"
 

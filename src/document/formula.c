@@ -6,6 +6,9 @@
 
 #include "base/memory.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 
 nh_ex nh_formula_shortened(const nh_analysis_file *a, nh_dag *d, nh_ex e)

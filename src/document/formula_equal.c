@@ -8,6 +8,8 @@
 #include "document/formula.h"
 #include "evaluate/tape.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 enum {
     least_sum = 5, /* symbols: a shorter sum gets no name */

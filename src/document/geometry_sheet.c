@@ -3,6 +3,9 @@
 
 #include <string.h>
 
+#include "graph/dag.h"
+#include "graph/node.h"
+
 typedef struct {
     nh_sheet *s;
     const nh_theory *t;

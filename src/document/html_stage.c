@@ -8,6 +8,7 @@
 #include "document/formula.h"
 #include "document/html_internal.h"
 #include "document/live.h"
+#include "graph/dag.h"
 #include "graph/print.h"
 #include "integrals/fixed.h"
 

@@ -5,6 +5,7 @@
 
 #include "base/json.h"
 #include "base/memory.h"
+#include "graph/node.h"
 
 const char *nh_linearized_word(nh_linear_verdict v)
 {

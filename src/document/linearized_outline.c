@@ -6,6 +6,7 @@
 #include "document/linearized.h"
 #include "document/pen.h"
 #include "document/screen.h"
+#include "graph/node.h"
 
 enum { digits = 14 };
 

@@ -7,6 +7,7 @@
 #include "base/escape.h"
 #include "document/export_code.h"
 #include "document/page.h"
+#include "graph/dag.h"
 #include "integrals/fixed.h"
 
 const char *nh_live_js_lacks(const nh_dag *dag, nh_ex e) { return nh_source_lacks(&nh_source_js, dag, e); }

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "integrals/fixed.h"
 #include "search/explicit_motion.h"
 #include "search/motion_series.h"

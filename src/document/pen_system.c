@@ -6,6 +6,7 @@
 #include "document/geometry_sheet.h"
 #include "document/pen.h"
 #include "exact/normal.h"
+#include "graph/node.h"
 
 /* ---- as it was written ---- */
 

@@ -10,6 +10,8 @@
 #include "document/facts.h"
 #include "document/formula.h"
 #include "document/reduction_sheet.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 /* Simplified, unless it is so large that nobody would read it. */
 static nh_ex shortened(const nh_reduction *r, nh_ex e)

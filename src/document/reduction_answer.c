@@ -8,6 +8,7 @@
 #include "document/screen.h"
 #include "document/sheet.h"
 #include "exact/normal.h"
+#include "graph/node.h"
 #include "graph/print.h"
 
 /* "-y d/dx + x d/dy + d/dtheta" */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "document/facts.h"
+#include "graph/node.h"
 
 const char *nh_reduction_not_counted(const nh_kinetic *k)
 {

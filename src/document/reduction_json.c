@@ -8,6 +8,8 @@
 #include "document/facts.h"
 #include "document/reduction_internal.h"
 #include "document/reduction_sheet.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 static void put_expression(nh_json *to, const char *key, nh_dag *d, nh_ex e)
 {

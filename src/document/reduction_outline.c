@@ -10,6 +10,7 @@
 #include "document/screen.h"
 #include "document/reduction_internal.h"
 #include "document/reduction_sheet.h"
+#include "graph/node.h"
 
 /* "SE(2) x SO(2)^3" as it is typeset. */
 static const char *group_name(const nh_reduction *r, const nh_pen *p, const char *name)

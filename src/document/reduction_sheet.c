@@ -3,6 +3,8 @@
 #include "document/reduction_sheet.h"
 
 #include "document/reduction_sheet_internal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 static void add(const nh_reduction_builder *b, nh_ex e, const char *format, size_t a)
 {

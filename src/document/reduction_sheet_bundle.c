@@ -2,6 +2,7 @@
 #include "document/reduction_sheet_internal.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 
 static const char *number(const nh_reduction_builder *b, const char *letter, size_t a)
 {

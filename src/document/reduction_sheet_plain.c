@@ -2,6 +2,7 @@
  * stage. */
 #include "document/reduction.h"
 #include "document/reduction_sheet.h"
+#include "graph/dag.h"
 
 static nh_sheet *sheet_of(const nh_reduction *r)
 {

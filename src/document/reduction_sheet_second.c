@@ -8,6 +8,7 @@
 #include "exact/normal.h"
 #include "exact/solve.h"
 #include "document/reduction_sheet_internal.h"
+#include "graph/dag.h"
 
 static const char *number(const nh_reduction_builder *b, const char *letter, size_t a)
 {

@@ -6,6 +6,7 @@
 #include "exact/normal.h"
 #include "exact/solve.h"
 #include "document/reduction_sheet_internal.h"
+#include "graph/dag.h"
 
 typedef struct {
     const nh_reduction_builder *b;

@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "document/form.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 #include "system/system.h"
 
 enum { NH_SCREEN_LINES = 40, NH_SCREEN_HANG = 4 };

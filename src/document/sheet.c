@@ -11,6 +11,7 @@
 #include "graph/print.h"
 #include "document/formula.h"
 #include "document/notation.h"
+#include "graph/dag.h"
 
 /* Makes room for one more entry of a list in the arena: the list is copied when it doubles. */
 static void *grown(nh_arena *arena, void *list, size_t count, size_t *room, size_t size)

@@ -6,6 +6,7 @@
 #include "document/facts.h"
 #include "document/live.h"
 #include "document/simulation.h"
+#include "graph/dag.h"
 #include "integrals/prove.h"
 
 typedef struct {

@@ -6,6 +6,10 @@
 
 #include "base/memory.h"
 #include "document/source_internal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_nodes = 60, most_terms = 24 }; /* longest expression in one statement; most terms of a sum */
 

@@ -7,7 +7,7 @@
 #define NH_SOURCE_H
 
 #include "base/text.h"
-#include "graph/dag.h"
+#include "graph/function.h"
 
 /* How a language writes expressions. */
 typedef struct {

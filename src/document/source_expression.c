@@ -3,6 +3,9 @@
 
 #include "document/source_internal.h"
 #include "graph/declared.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/num_long.h"
 
 static void put(nh_source *w, nh_ex e, int around);

@@ -1,5 +1,6 @@
 /* source_language: the table of languages. */
 #include "document/source.h"
+#include "graph/function.h"
 
 #define FUNCTIONS(p, arc, arc2, hyper) \
     [NH_SIN] = p "sin", [NH_COS] = p "cos", [NH_TAN] = p "tan", [NH_ASIN] = p arc "sin", [NH_ACOS] = p arc "cos", \

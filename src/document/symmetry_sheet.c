@@ -3,6 +3,9 @@
 #include "document/geometry_sheet.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 
 static const char *const kind_title[NH_SPACES] = {[NH_SPACE_BEST] = "Projectable and of case 1",

@@ -1,7 +1,9 @@
 #include "document/symmetry_words.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 
 /* A field on (t, q): the symmetry itself, or its part that is no motion. */
 typedef struct {

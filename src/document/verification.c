@@ -8,6 +8,7 @@
 #include "graph/print.h"
 #include "document/facts.h"
 #include "document/geometry_sheet.h"
+#include "graph/node.h"
 
 const nh_chart *nh_verification_chart(const nh_verification *v)
 {

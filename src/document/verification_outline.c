@@ -9,7 +9,9 @@
 #include "document/symmetry_words.h"
 #include "document/verification.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/measure.h"
+#include "graph/node.h"
 #include "integrals/prove.h"
 
 static bool of_field(const nh_verification *v) { return v->form || v->of_equations; }

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "evaluate/tape.h"
+#include "graph/dag.h"
 #include "graph/parse.h"
 
 static bool no_name(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)

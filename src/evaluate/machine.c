@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/recovery.h"
 #include "evaluate/tape_internal.h"
+#include "graph/function.h"
 
 enum { most_machines = 64, most_instructions = 20000 };
 static const char *const entry_point = "nh_code";

@@ -10,7 +10,7 @@
 #endif
 
 #include "evaluate/arb.h"
-#include "graph/dag.h"
+#include "graph/function.h"
 
 /* f of the arguments that it takes.  Not finite where it is not real. */
 void nh_named_value_ball(nh_function f, arb_srcptr argument, arb_t out, slong bits);

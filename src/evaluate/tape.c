@@ -8,6 +8,10 @@
 #include "base/memory.h"
 #include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 /* units of an evaluation beside its instructions: per call, per input and output */
 static const double call = 8, each_value = 0.3;

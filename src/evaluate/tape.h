@@ -6,7 +6,8 @@
 #ifndef NH_TAPE_H
 #define NH_TAPE_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 enum { NH_BATCH = 256 }; /* points per batch: below 64 slow, 128 to 512 flat (docs/performance.md) */
 

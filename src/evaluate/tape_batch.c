@@ -15,6 +15,7 @@
 #include "base/memory.h"
 #include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
+#include "graph/function.h"
 
 #if defined __x86_64__ && defined __GNUC__ && !defined __clang__
 #define FOURS __attribute__((target("avx2")))

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "evaluate/named_value.h"
 #include "evaluate/tape_internal.h"
+#include "graph/function.h"
 
 /* Written out: C's operators check every product for infinities. */
 static double complex times(double complex a, double complex b)

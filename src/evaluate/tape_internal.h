@@ -3,6 +3,7 @@
 #define NH_TAPE_INTERNAL_H
 
 #include "evaluate/tape.h"
+#include "graph/function.h"
 
 /* see machine.h */
 typedef struct nh_machine nh_machine;

@@ -4,8 +4,12 @@
 #include "exact/normal.h"
 #include "exact/relation_express.h"
 #include "exact/square.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "graph/measure.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { default_terms = 20000, highest = 12 };
 

@@ -17,7 +17,8 @@
 #ifndef NH_ANTIDERIVATIVE_H
 #define NH_ANTIDERIVATIVE_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 typedef struct {
     nh_dag *dag;

@@ -3,7 +3,10 @@
 
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 typedef nh_antiderivative_builder builder;
 typedef nh_antiderivative_letter letter;

@@ -7,6 +7,10 @@
 #include "base/progress.h"
 #include "evaluate/named_value.h"
 #include "exact/ball_internal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/num_long.h"
 
 enum { deepest = 3000 }; /* depth of nesting that the stack bears */

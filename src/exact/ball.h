@@ -5,7 +5,8 @@
 #ifndef NH_BALL_H
 #define NH_BALL_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* Values of some symbols, at some precision, and a memo of every evaluated node.  The ball borrows the graph;
  * nh_ball_free. */

@@ -3,7 +3,7 @@
 #define NH_BALL_ARB_H
 
 #include "evaluate/arb.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 
 typedef struct nh_ball nh_ball; /* exact/ball.h */
 

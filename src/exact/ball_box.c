@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "exact/ball_internal.h"
 #include "exact/ball_series.h"
+#include "graph/num.h"
 
 enum { bits = 128, first_m = 12, last_m = 36, step_m = 8, most_parts = 4, most_places = 40000 };
 static const double slack = 1e-12; /* more than rounding of the bounds themselves */

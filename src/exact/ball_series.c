@@ -5,6 +5,9 @@
 #include "base/memory.h"
 #include "exact/ball_internal.h"
 #include "exact/ball_series_internal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 /* Pieces of the interval on either side of the centre, and of a step of a move: balls around short pieces are small.
  * beyond: terms after the degree that are bounded at the centre, where balls are points; only the term after them is

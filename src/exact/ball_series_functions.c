@@ -1,4 +1,5 @@
 #include "exact/ball_series_internal.h"
+#include "graph/function.h"
 
 #include <stdlib.h>
 

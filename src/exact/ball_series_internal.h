@@ -3,7 +3,7 @@
 #define NH_BALL_SERIES_INTERNAL_H
 
 #include "evaluate/arb.h"
-#include "graph/dag.h"
+#include "graph/function.h"
 
 /* Applies the function to p, in place, below x^terms.  Where it has a kink or a pole, or is not defined, coefficients
  * are not finite, or the answer is false.  False also for a function without series here. */

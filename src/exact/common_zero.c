@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "exact/normal_quotient_internal.h"
+#include "graph/num.h"
 
 enum { most_terms = 400, most_degree = 60, most_bits = 400, most_list = 16, most_square = 1000 };
 static const double vanishing = 1e-8,

@@ -5,6 +5,9 @@
 #include "exact/form.h"
 #include "exact/normal.h"
 #include "exact/print_quotient.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 enum { most_terms = 20000 };
 

@@ -8,7 +8,8 @@
 #ifndef NH_FIELD_ROOT_H
 #define NH_FIELD_ROOT_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* Generators besides symbols, logarithms and the like; arguments and radicands in canonical form (normal.h). */
 typedef struct {

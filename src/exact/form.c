@@ -5,7 +5,11 @@
 #include "graph/dag_internal.h"
 #include "exact/named_relation.h"
 #include "exact/print_quotient.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "graph/measure.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum {
     deepest = 300,        /* depth of nesting that is rewritten: what the stack bears */

@@ -1,5 +1,9 @@
 /* Evaluates expressions with canonical arguments in the field of their kernels. */
 #include "exact/form.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 typedef const nh_quotient *quotient;
 

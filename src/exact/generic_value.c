@@ -7,6 +7,8 @@
 #include "exact/jet_eval.h"
 #include "exact/jet_independent.h"
 #include "exact/residue_matrix.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 enum { canonical_length = 2000, order = 2, most_points = 400, most_symbols = 64 };
 

@@ -8,7 +8,7 @@
 #define NH_GENERIC_VALUE_H
 
 #include "exact/jet_ring.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 
 /* Is one of n expressions not identically zero in these variables and all other symbols?  False: not known. */
 bool nh_generic_nonzero(nh_dag *dag, size_t n, const nh_ex *e, size_t variables, const nh_ex *variable);

@@ -4,6 +4,9 @@
 
 #include "base/budget.h"
 #include "exact/relation_internal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 /* A linear combination of unknowns: its nonzero entries, in ascending order. */
 typedef struct {

@@ -10,7 +10,7 @@
 #define NH_INVARIANT_FORMS_H
 
 #include "base/memory.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 
 typedef struct {
     nh_dag *dag;

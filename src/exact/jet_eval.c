@@ -3,6 +3,11 @@
 
 #include <string.h>
 
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
+
 typedef enum { UNKNOWN, CONSTANT, VARYING } state;
 
 struct nh_jet_eval {

@@ -7,6 +7,10 @@
 #include "exact/field_root.h"
 #include "exact/jet_eval.h"
 #include "exact/kernel.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_roots = 60, spare_rows = 20, most_tries = 20000, series_points = 8, series_tries = 400, most_inner = 8 };
 

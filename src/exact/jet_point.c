@@ -8,9 +8,13 @@
 #include "exact/kernel.h"
 #include "exact/named_relation.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/dag_internal.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "graph/named_function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/num_long.h"
 
 static const uint64_t most_order = (uint64_t)1 << 40; /* largest common denominator of the multiples of one atom */

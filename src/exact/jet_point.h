@@ -20,8 +20,8 @@
 #ifndef NH_JET_POINT_H
 #define NH_JET_POINT_H
 
-#include "graph/dag.h"
 #include "exact/residue.h"
+#include "graph/expr.h"
 
 typedef enum {
     NH_JET_CIRCLE,

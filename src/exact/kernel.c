@@ -4,7 +4,11 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/dag_internal.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum {
     most_angle = 12,     /* sin(12 a) is written as a polynomial in sin(a), cos(a), sin(13 a) is not */

@@ -4,8 +4,12 @@
 
 #include "base/memory.h"
 #include "exact/kernel.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "graph/named_function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_steps = 24 };
 

@@ -12,7 +12,8 @@
 #ifndef NH_NAMED_RELATION_H
 #define NH_NAMED_RELATION_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* One step: expresses e, a call with canonical arguments, by functions whose orders are nearer to that interval, or by
  * the first of two solutions.  False: there is no step. */

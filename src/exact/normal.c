@@ -7,6 +7,7 @@
 #include "exact/ball.h"
 #include "exact/form.h"
 #include "exact/straighten.h"
+#include "graph/node.h"
 
 enum {
     default_terms = 20000,

@@ -9,7 +9,7 @@
 #ifndef NH_NORMAL_H
 #define NH_NORMAL_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
 #include "graph/measure.h"
 
 typedef enum { NH_ZERO, NH_NONZERO, NH_TOO_LARGE } nh_zero_verdict;

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "exact/normal_quotient_internal.h"
+#include "graph/num.h"
 
 /* Factoring is for display: beyond these sizes the expanded form is shown. */
 enum { factor_terms = 60, factor_degree = 24 };

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "exact/normal_quotient_internal.h"
+#include "graph/num.h"
 #include "graph/num_long.h"
 
 enum { conjugate_pairs = 500 };

@@ -9,7 +9,7 @@
 #define NH_NORMAL_QUOTIENT_H
 
 #include "base/memory.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 
 typedef struct nh_quotient_field nh_quotient_field;
 typedef struct nh_quotient nh_quotient;

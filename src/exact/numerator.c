@@ -2,6 +2,7 @@
 #include "exact/print_quotient.h"
 #include "exact/form.h"
 #include "exact/normal.h"
+#include "graph/num.h"
 
 enum { most_terms = 2000 };
 

@@ -6,6 +6,9 @@
 #include "exact/normal.h"
 #include "exact/print_quotient.h"
 #include "exact/relation_internal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_polynomials = 12 };
 

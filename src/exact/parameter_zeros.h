@@ -8,7 +8,7 @@
 #define NH_PARAMETER_ZEROS_H
 
 #include "base/memory.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 
 /* One way: all of these polynomials vanish. */
 typedef struct {

@@ -3,7 +3,11 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "graph/measure.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 /* ---- monomials ---- */
 

@@ -7,6 +7,10 @@
 #include "exact/normal.h"
 #include "exact/relation_internal.h"
 #include "exact/straighten.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { default_terms = 20000, most_kernels = 300 };
 

@@ -5,6 +5,8 @@
 #include "exact/relation_internal.h"
 #include "exact/relation_rows.h"
 #include "exact/relation_space.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 /* The symbols of all expressions that are no parameters.  False: there are more than `most`. */
 static bool variables_of(const nh_dag *dag, size_t n, const nh_ex *e, size_t parameters, const nh_ex *parameter,

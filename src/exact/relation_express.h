@@ -4,7 +4,8 @@
 #ifndef NH_RELATION_EXPRESS_H
 #define NH_RELATION_EXPRESS_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* Expresses the last of n expressions by those before it, which need not be independent: the first ones possible are
  * used.  `parameter`, max_terms: as for nh_relation_find.  False where there is no such relation, or it is too

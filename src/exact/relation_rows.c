@@ -5,6 +5,7 @@
 
 #include "base/budget.h"
 #include "exact/normal_quotient_internal.h"
+#include "graph/num.h"
 
 #include <flint/nmod.h>
 #include <flint/nmod_poly.h>

@@ -4,6 +4,7 @@
 
 #include "exact/normal_quotient_internal.h"
 #include "exact/relation_rows.h"
+#include "graph/num.h"
 
 enum { points = 2 };
 static const double gcd_pairs = 1e6;

@@ -9,6 +9,8 @@
 #include "exact/normal.h"
 #include "exact/relation.h"
 #include "exact/residue_matrix.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 enum {
     canonical_length = 2000,

@@ -11,7 +11,7 @@
 #define NH_RELATION_SPACE_H
 
 #include "base/memory.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 
 typedef struct {
     nh_dag *dag;

@@ -8,6 +8,9 @@
 #include "exact/relation_internal.h"
 #include "exact/relation_rows.h"
 #include "evaluate/tape.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_columns = 40, most_equations = 8 };
 /* bounds for the remainder of a row, and of the relation at the point */

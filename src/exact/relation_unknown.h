@@ -9,7 +9,8 @@
 #ifndef NH_RELATION_UNKNOWN_H
 #define NH_RELATION_UNKNOWN_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 enum { NH_MOST_UNKNOWN = 3 };
 

@@ -4,6 +4,10 @@
 #include "exact/print_quotient.h"
 #include "exact/form.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum {
     most_terms = 1000,    /* largest number of terms of intermediate polynomials */

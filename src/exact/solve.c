@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 
 struct nh_lu {
     nh_dag *dag;

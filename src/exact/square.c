@@ -1,6 +1,9 @@
 #include "exact/square.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 bool nh_square_split(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
 {

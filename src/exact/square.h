@@ -2,7 +2,8 @@
 #ifndef NH_SQUARE_H
 #define NH_SQUARE_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* Splits e = outside^2 * inside, where `inside` is a polynomial without square factors, as far as its written factors
  * show.  False: e has roots as factors, or a number that is not a rational of 64 bits. */

@@ -1,7 +1,11 @@
 #include "exact/straighten.h"
 
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/dag_internal.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_sums = 40, least_sums = 3 };
 

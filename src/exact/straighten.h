@@ -8,7 +8,8 @@
 #ifndef NH_STRAIGHTEN_H
 #define NH_STRAIGHTEN_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* Rewrites the n expressions in place, where at least three sums of symbols are arguments of sines, cosines or
  * exponentials, or stand in denominators; `constants` are not replaced.  False: nothing is changed. */

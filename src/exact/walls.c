@@ -2,7 +2,11 @@
 
 #include "base/memory.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "graph/named_function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_nested = 6 };
 

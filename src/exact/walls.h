@@ -14,7 +14,8 @@
 #ifndef NH_WALLS_H
 #define NH_WALLS_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 enum { NH_MOST_WALLS = 40, NH_MOST_WALL_PARTS = 16 };
 

@@ -8,6 +8,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/walls.h"
+#include "graph/dag.h"
 
 /* A simplified formula that would be much longer is not used: it is evaluated at every step. */
 nh_ex nh_constraint_without_poles(const nh_model *o, size_t a)

@@ -7,6 +7,7 @@
 #include "exact/jet_eval.h"
 #include "exact/jet_independent.h"
 #include "exact/residue_matrix.h"
+#include "graph/node.h"
 
 enum { canonical_length = 2000, most_points = 200, most_size = 3000, deepest = 10, most_nodes = 400000 };
 /* of growth vectors: the order of the first attempt, coefficients of a series, brackets, points */

@@ -2,6 +2,7 @@
 #include "geometry/determining.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 
 enum { large_length = 3000 };
 

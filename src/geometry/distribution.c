@@ -2,6 +2,7 @@
 
 #include "exact/normal.h"
 #include "geometry/closure.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "system/embedding.h"
 

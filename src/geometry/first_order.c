@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/print.h"
 

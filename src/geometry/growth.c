@@ -6,6 +6,8 @@
 #include "base/linalg.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 enum { most_fields = 200, largest_entry = 400, zero_terms = 2000, stages_beyond = 2, deepest = 4, most_nodes = 250000 };
 static const double rank_bound = 1e-9;

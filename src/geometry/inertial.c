@@ -2,6 +2,7 @@
 #include "geometry/inertial.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 
 static nh_inertial_part part_of(const nh_system *y, size_t j, size_t k)

@@ -8,7 +8,9 @@
 #include "exact/walls.h"
 #include "geometry/bordered.h"
 #include "geometry/linearization_internal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/num.h"
 
 /* ---- expressions ---- */
 

@@ -8,6 +8,8 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "geometry/model_internal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "system/embedding.h"
 
 static nh_ex *take(nh_model *o, size_t count) { return nh_arena_alloc(o->arena, (count + 1) * sizeof(nh_ex)); }

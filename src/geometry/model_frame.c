@@ -1,4 +1,5 @@
 #include "geometry/model_internal.h"
+#include "graph/dag.h"
 
 #include "graph/diff.h"
 

@@ -17,7 +17,9 @@
 #include "base/text.h"
 #include "exact/generic_value.h"
 #include "geometry/first_order.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 
 /* The mass matrix at those probes where it is finite. */
 typedef struct {

@@ -6,6 +6,8 @@
 #include "exact/ball.h"
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 void nh_model_pair_roots(nh_model *o)
 {

@@ -2,6 +2,7 @@
 #include "geometry/submanifold.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 
 enum { large_length = 3000 }; /* nh_complexity: longer formulas are not simplified */

@@ -2,8 +2,11 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/term_list.h"
 #include "graph/dag_internal.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 void nh_term_list_push(nh_term_list *b, nh_term_list_item x)
 {

@@ -3,7 +3,7 @@
 #define NH_DAG_INTERNAL_H
 
 #include "base/memory.h"
-#include "graph/dag.h"
+#include "graph/node.h"
 
 typedef struct {
     const char *text;

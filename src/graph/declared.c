@@ -1,6 +1,9 @@
 #include "graph/declared.h"
 
+#include "graph/dag.h"
 #include "graph/dag_internal.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 size_t nh_declared_add(nh_dag *dag, const char *name)
 {

@@ -8,7 +8,8 @@
 #ifndef NH_DECLARED_H
 #define NH_DECLARED_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 enum { NH_DECLARED_PRIMES = 8 }; /* the highest derivative that can be written */
 

@@ -3,8 +3,12 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/dag_internal.h"
+#include "graph/function.h"
 #include "graph/named_function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 /* ---- the memo: open addressing on (e, x) ---- */
 

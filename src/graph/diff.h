@@ -5,7 +5,8 @@
 #ifndef NH_DIFF_H
 #define NH_DIFF_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* d e / d x for a symbol x. */
 nh_ex nh_diff(nh_dag *dag, nh_ex e, nh_ex x);

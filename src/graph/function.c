@@ -4,6 +4,9 @@
 
 #include "graph/dag.h"
 #include "base/text.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/dag_internal.h"
 
 #define NAMED(f, name, arity, arguments) [NH_##f] = {name, arity, 0, -1, -1, NULL, arguments}

@@ -1,8 +1,12 @@
 /* gradient: reverse accumulation.  The adjoint of a node is d e/d node; a node hands its adjoint, times the derivative
  * of the node with respect to the child, to each child.  Children have smaller indices than their parents, so one walk
  * downwards sees every adjoint complete. */
+#include "graph/dag.h"
 #include "graph/dag_internal.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 typedef struct {
     nh_ex term;

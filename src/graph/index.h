@@ -2,7 +2,8 @@
 #ifndef NH_INDEX_H
 #define NH_INDEX_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 typedef struct {
     uint64_t *slot; /* (key + 1) << 32 | value; 0 when free */

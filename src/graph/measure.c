@@ -4,7 +4,10 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "graph/function.h"
 #include "graph/index.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 /* ---- the length of a printed expression ---- */
 

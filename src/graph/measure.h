@@ -2,7 +2,8 @@
 #ifndef NH_MEASURE_H
 #define NH_MEASURE_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* The printed length of e: about the number of symbols, numbers and operators. */
 size_t nh_complexity(const nh_dag *dag, nh_ex e);

@@ -4,7 +4,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/index.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_symbols = 32, most_power = 64 };
 

@@ -2,7 +2,8 @@
 #ifndef NH_MONOMIALS_H
 #define NH_MONOMIALS_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 typedef struct {
     size_t symbols, count;

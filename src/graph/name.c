@@ -5,6 +5,7 @@
 
 #include "base/escape.h"
 #include "base/text.h"
+#include "graph/function.h"
 #include "graph/name.h"
 
 static bool is_letter(char c) { return isalpha((unsigned char)c) || c == '_'; }

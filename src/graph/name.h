@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "graph/dag.h"
+#include "graph/function.h"
 
 /* A character that names cannot have stands in them by its number, as uni53F0 (so fonts name it): writes it, and reads
  * it: the length of such a word at `at`, or 0. */

@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "graph/parse.h"
 
 /* The second derivative, in the letters of the arguments, f and g = f'

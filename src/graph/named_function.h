@@ -9,7 +9,8 @@
 #ifndef NH_NAMED_FUNCTION_H
 #define NH_NAMED_FUNCTION_H
 
-#include "graph/dag.h"
+#include "graph/function.h"
+
 
 /* The derivative of the named function e with respect to its argument i; not-a-number where it has no closed form. */
 nh_ex nh_named_function_rate(nh_dag *dag, nh_ex e, size_t i);

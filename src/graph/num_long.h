@@ -10,7 +10,7 @@
 #include <gmp.h>
 
 #include "base/text.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 
 /* The number as a nh_num: p/q where it fits into 64 bits, a double past the limits.  Thread-safe. */
 nh_num nh_num_of_mpq(const mpq_t value);

@@ -8,7 +8,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/measure.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/num_long.h"
 #include "graph/spelling.h"
 

@@ -18,7 +18,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 #include "graph/name.h"
 
 typedef struct {

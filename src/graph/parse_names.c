@@ -4,7 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/declared.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/parse_internal.h"
 
 typedef nh_parser parser;

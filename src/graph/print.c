@@ -6,8 +6,12 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/declared.h"
+#include "graph/function.h"
 #include "graph/measure.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/num_long.h"
 
 /* Binding strength of the operator around an expression. */

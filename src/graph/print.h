@@ -3,7 +3,7 @@
 #define NH_PRINT_H
 
 #include "base/text.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 
 /* Adds e in the expression language of system files.  Round trip: parsing the text gives e again (inexact constants to
  * the last bit).  The graph may gain nodes.  What is nested deeper than 1000 levels is written "...". */

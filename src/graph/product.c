@@ -10,6 +10,10 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/term_list.h"
 
 nh_ex nh_product_without_number(nh_dag *dag, nh_ex e)

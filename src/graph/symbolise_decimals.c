@@ -3,6 +3,10 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 /* The symbol of |value|, with its sign; `exact` is the same number.  The exponent 1/2 of a root and a rate 1/2 get
  * different symbols. */

@@ -2,7 +2,8 @@
 #ifndef NH_SYMBOLISE_DECIMALS_H
 #define NH_SYMBOLISE_DECIMALS_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 enum { NH_MOST_LIFTED = 4 };
 

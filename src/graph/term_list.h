@@ -3,7 +3,8 @@
 #ifndef NH_TERM_LIST_H
 #define NH_TERM_LIST_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 typedef struct {
     nh_ex e;       /* term of a sum, base of a product */

@@ -1,7 +1,11 @@
 #include "graph/terms.h"
 
 #include "base/memory.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "graph/index.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 size_t nh_terms_of(nh_dag *d, nh_ex phi, nh_ex **out)
 {

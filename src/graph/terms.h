@@ -2,7 +2,8 @@
 #ifndef NH_TERMS_H
 #define NH_TERMS_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* Writes the expression itself, then its terms: those of a sum, also under a common factor.  Returns their number; the
  * caller frees *out. */

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 
 /* One family while it is built: columns, terms and the map between them. */
 typedef struct {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "integrals/exact_points.h"

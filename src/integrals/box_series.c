@@ -8,6 +8,7 @@
 #include "base/budget.h"
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "integrals/function_series.h"
 #include "system/sample.h"
 

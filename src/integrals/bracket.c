@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 
 enum { large_length = 3000 };
 

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "graph/dag.h"
+
 typedef struct {
     const nh_model *o;
     nh_dag *d;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "integrals/exact_points.h"
 #include "system/sample.h"

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "integrals/force_potential.h"
 

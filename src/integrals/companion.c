@@ -7,6 +7,9 @@
 #include "exact/normal.h"
 #include "exact/relation.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/terms.h"
 
 /* most terms of a field; largest complexity of a component before and after simplification */

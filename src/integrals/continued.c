@@ -4,7 +4,11 @@
 
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "system/sample.h"
 
 /* The sign of a quotient at a point of the box where it has one: 1 or -1; 0 where none was found. */

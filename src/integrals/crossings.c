@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "integrals/exact_points.h"
 #include "integrals/open_way.h"

@@ -5,6 +5,10 @@
 
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "integrals/places.h"
 #include "integrals/total_derivative.h"
 

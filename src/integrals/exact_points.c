@@ -3,6 +3,8 @@
 #include <math.h>
 
 #include "base/linalg.h"
+#include "graph/dag.h"
+#include "graph/num.h"
 #include "system/sample.h"
 
 /* Solves for the implicit velocities to the ball's precision: the chord iteration u := u - J^-1 f(u) with J^-1 from

@@ -1,6 +1,7 @@
 /* family: unknowns inside ansatz families (declared in unknowns.h). */
 #include <string.h>
 
+#include "graph/dag.h"
 #include "integrals/unknowns.h"
 
 bool nh_family_contains(const nh_model *model, const nh_family *f, nh_ex unknown)

@@ -5,6 +5,9 @@
 
 #include "base/text.h"
 #include "exact/relation.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 #include "integrals/fixed_ties.h"
 

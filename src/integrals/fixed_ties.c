@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "graph/dag.h"
+#include "graph/num.h"
+
 enum { most_fixed = 8, most_factors = 3, highest = 2, largest_ratio = 12, proposals = 400, most_monomials = 12 };
 
 typedef struct {

@@ -6,7 +6,10 @@
 
 #include "exact/antiderivative.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 enum { largest_form = 2000, most_signs = 8 };
 

@@ -6,6 +6,9 @@
 
 #include "base/progress.h"
 #include "exact/ball_ode.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/num.h"
 #include "integrals/exact_points.h"
 
 enum { near_terms = 8, first_degree = 16, heldout = 4, heldout_tries = 60, heldout_from = 100000 };

@@ -6,7 +6,10 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "integrals/gradient_rank.h"
 
 enum { levels = 4 };

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "exact/relation_unknown.h"
+#include "graph/dag.h"
 
 enum { kinds = 3 };
 

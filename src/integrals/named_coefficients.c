@@ -4,7 +4,9 @@
 
 #include "evaluate/tape.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/named_match.h"
 

@@ -3,7 +3,11 @@
 #include <math.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 enum { most_points = 3, most_factors = 64 };
 

@@ -5,7 +5,10 @@
 
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 #include "integrals/named_match.h"
 

@@ -3,7 +3,8 @@
 #ifndef NH_NAMED_VARIABLE_H
 #define NH_NAMED_VARIABLE_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* u'' = p u' + q u, the derivatives by `variable`. */
 typedef struct {

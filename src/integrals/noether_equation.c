@@ -2,8 +2,10 @@
 
 #include "base/memory.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
+#include "graph/node.h"
 
 enum { longest = 3000 };
 

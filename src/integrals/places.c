@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 
 static bool moves(const nh_model *o, nh_ex e)
 {

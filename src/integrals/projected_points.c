@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "integrals/exact_points.h"
 

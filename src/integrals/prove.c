@@ -7,6 +7,7 @@
 #include "graph/monomials.h"
 #include "graph/terms.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "integrals/affine_field.h"
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"

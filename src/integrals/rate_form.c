@@ -2,8 +2,11 @@
 
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "graph/measure.h"
 #include "graph/named_function.h"
+#include "graph/node.h"
 
 /* sign(u) as |u|/u, of which the normal form knows the square. */
 static nh_ex without_signs(nh_dag *d, nh_ex e)

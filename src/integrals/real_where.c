@@ -4,6 +4,10 @@
 #include <string.h>
 
 #include "exact/kernel.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 static int sign_of_symbol(const nh_model *o, nh_ex e)
 {

@@ -4,6 +4,8 @@
 
 #include "base/linalg.h"
 #include "base/memory.h"
+#include "graph/dag.h"
+#include "graph/num.h"
 
 /* Continued fraction, stopped at the first convergent that is near enough. */
 bool nh_recognise_ratio(double value, int64_t most, double tolerance, nh_num *out)

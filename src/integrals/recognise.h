@@ -6,7 +6,8 @@
 #ifndef NH_RECOGNISE_H
 #define NH_RECOGNISE_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 /* value = p/q with q <= most within the relative `tolerance`?  */
 bool nh_recognise_ratio(double value, int64_t most, double tolerance, nh_num *out);

@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 enum { most_bits = 14, trial_points = 5 };
 

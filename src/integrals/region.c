@@ -3,8 +3,12 @@
 #include <math.h>
 
 #include "base/text.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "graph/measure.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 #include "integrals/exact_points.h"
 #include "integrals/prove.h"

@@ -7,6 +7,10 @@
 #include "base/progress.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 /* The derivative of log(R - s), a difference that cancels, is often a quotient in which nothing cancels: then the
  * simplification pays.  For all rates it would cost more than the whole search. */

@@ -7,6 +7,8 @@
 #include "graph/diff.h"
 #include "graph/symbolise_decimals.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/num.h"
 #include "integrals/exact_points.h"
 
 enum { most_steps = 16, spare_rows = 8, most_tries = 4 };

@@ -2,7 +2,9 @@
 
 #include "base/memory.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "integrals/total_derivative.h"
 
 /* The place becomes the coordinate along which it has a number as slope. */

@@ -5,6 +5,8 @@
 
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 enum { large_length = 3000, many_coordinates = 12 }; /* nh_complexity */
 

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "exact/antiderivative.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/terms.h"
 

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "graph/dag.h"
 #include "integrals/pencil.h"
 #include "system/sample.h"
 

@@ -6,6 +6,8 @@
 #include "base/files.h"
 #include "commands/export.h"
 #include "document/wording.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "graph/parse.h"
 #include "motion/method.h"
 #include "problem/places.h"

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "graph/dag.h"
+
 struct nh_along_values {
     const nh_model *model;
     size_t n;

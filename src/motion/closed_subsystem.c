@@ -7,6 +7,7 @@
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "exact/walls.h"
+#include "graph/dag.h"
 
 /* least slope of a current relative to its slope at the start: below it the state that it determines loses digits */
 static const double smallest_slope = 0.03;

@@ -11,7 +11,9 @@
 
 #include "exact/ball.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "graph/terms.h"
 #include "integrals/exact_points.h"
 #include "motion/closed_subsystem.h"

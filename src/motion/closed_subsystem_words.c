@@ -1,4 +1,5 @@
 /* closed_subsystem_words: a closed subsystem in words. */
+#include "graph/node.h"
 #include "motion/closed_subsystem.h"
 
 const char *nh_closed_subsystem_state_name(const nh_closed_subsystem *s, size_t i)

@@ -6,6 +6,8 @@
 #include "exact/ball.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/num.h"
 
 static const double seems_zero = 1e-11; /* relative size below which a derivative may be identically zero */
 static const double ball_digits = 40;   /* digits to which it must vanish when its normal form is too large */

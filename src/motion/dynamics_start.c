@@ -9,6 +9,7 @@
 
 #include "base/linalg.h"
 #include "base/text.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "motion/dynamics_internal.h"
 

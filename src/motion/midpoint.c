@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "graph/dag.h"
 #include "motion/stepping.h"
 #include "graph/diff.h"
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/terms.h"
 #include "motion/automatic.h"
 #include "motion/trajectory.h"

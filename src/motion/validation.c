@@ -8,6 +8,7 @@
 #include "base/budget.h"
 #include "base/linalg.h"
 #include "base/progress.h"
+#include "graph/node.h"
 #include "motion/automatic.h"
 #include "motion/singular_start.h"
 #include "motion/sizes.h"

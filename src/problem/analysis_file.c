@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "graph/dag.h"
 #include "graph/declared.h"
 #include "graph/parse.h"
 #include "system/deck_build.h"

@@ -1,6 +1,7 @@
 /* analysis_file_ansatz: the families of an analysis file. */
 #include <string.h>
 
+#include "graph/dag.h"
 #include "problem/analysis_file_internal.h"
 
 static bool read_in(nh_analysis_file_reader *r, const nh_deck_node *item, nh_family *f)

@@ -1,6 +1,7 @@
 /* analysis_file_figures: the figures of an analysis file, and their motions (docs/formats.md). */
 #include <string.h>
 
+#include "graph/node.h"
 #include "problem/analysis_file_internal.h"
 
 typedef nh_analysis_file_reader reader;

@@ -4,6 +4,8 @@
 
 #include "base/text.h"
 #include "evaluate/tape.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "problem/analysis_file_internal.h"
 
 typedef nh_analysis_file_reader reader;

@@ -4,7 +4,9 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "graph/measure.h"
 #include "problem/solid.h"
 

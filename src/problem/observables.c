@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "graph/node.h"
 #include "problem/drawing.h"
 
 nh_observables nh_observables_create(nh_arena *arena, const nh_model *model)

@@ -1,5 +1,8 @@
 #include "problem/solid.h"
 
+#include "graph/dag.h"
+#include "graph/function.h"
+
 /* e, or 0 where it is negative. */
 static nh_ex positive(nh_dag *d, nh_ex e) { return nh_mul(d, nh_ratio(d, 1, 2), nh_add(d, e, nh_call(d, NH_ABS, e))); }
 

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "graph/dag.h"
+#include "graph/num.h"
 #include "integrals/recognise.h"
 #include "reduction/action.h"
 #include "reduction/constants.h"

@@ -4,6 +4,7 @@
 
 #include "exact/normal.h"
 #include "exact/relation_space.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 
 typedef struct {

@@ -7,7 +7,7 @@
 #define NH_BASE_PARAMETERS_H
 
 #include "base/memory.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 
 typedef struct {
     size_t count;

@@ -9,6 +9,8 @@
 #include "exact/relation.h"
 #include "exact/solve.h"
 #include "evaluate/tape.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "reduction/joint.h"
 #include "system/sample.h"
 

@@ -7,6 +7,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
 
 static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
 {

@@ -1,6 +1,7 @@
 #include "reduction/constants.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "integrals/fixed.h"
 #include "integrals/recognise.h"
 #include "reduction/section.h"

@@ -6,6 +6,8 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "integrals/recognise.h"
 
 enum { most_factors = 40, most_seen = 3000, most_places = 16, largest_denominator = 12 };

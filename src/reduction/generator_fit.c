@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/linalg.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "reduction/relative.h"
 

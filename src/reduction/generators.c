@@ -6,6 +6,8 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "integrals/fixed.h"
 #include "integrals/recognise.h"
 #include "reduction/generator_fit.h"

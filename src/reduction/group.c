@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "reduction/section.h"
 #include "reduction/subspace.h"
 #include "reduction/torus.h"

@@ -6,6 +6,10 @@
 #include "graph/diff.h"
 #include "graph/terms.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 
 nh_ex nh_field_along(const nh_kinetic *k, const nh_ex *xi, nh_ex e) { return nh_diff_along(k->dag, e, k->m, k->q, xi); }

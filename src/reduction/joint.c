@@ -6,6 +6,7 @@
 #include "exact/normal.h"
 #include "exact/solve.h"
 #include "evaluate/tape.h"
+#include "graph/dag.h"
 #include "system/sample.h"
 
 struct nh_joint_rates {

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "reduction/joint.h"
 
 enum { most_fields = 200 };

@@ -9,6 +9,7 @@
 #include "graph/terms.h"
 #include "exact/generic_value.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "system/constraint_samples.h"
 
 static bool depends_on_any(const nh_dag *d, nh_ex e, size_t n, const nh_ex *symbol)

@@ -3,6 +3,7 @@
 
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "reduction/reduced.h"
 

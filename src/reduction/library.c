@@ -5,6 +5,9 @@
 
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 enum { most_factors = 24, covectors = 6 /* the level of fields with simple covectors */, polynomials = 7 };
 

@@ -7,6 +7,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
 #include "reduction/runge.h"
 #include "reduction/subspace.h"
 

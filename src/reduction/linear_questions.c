@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "geometry/distribution.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "reduction/chaplygin.h"
 #include "reduction/group.h"

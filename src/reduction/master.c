@@ -4,6 +4,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
 #include "reduction/reduced.h"
 
 /* rho (m x r) and c (m): u = rho w + c, the dependent components by omf_dep u_dep = -omf_ind w - bf. */

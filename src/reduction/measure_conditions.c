@@ -6,7 +6,9 @@
 #include "exact/generic_value.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "reduction/base_parameters.h"
 
 enum { longest = 3000, most_shape = 6 };

@@ -6,6 +6,7 @@
 #include "base/linalg.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "reduction/library.h"
 #include "reduction/relative.h"
 #include "reduction/section.h"

@@ -5,6 +5,7 @@
 
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "integrals/prove.h"
 #include "reduction/subspace.h"
 

@@ -8,6 +8,8 @@
 #include "graph/terms.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "reduction/section.h"
 #include "reduction/subspace.h"
 

@@ -4,6 +4,8 @@
 #include "base/linalg.h"
 #include "graph/diff.h"
 #include "geometry/bordered.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "reduction/quotient.h"
 
 struct nh_frame_motion {

@@ -6,6 +6,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
 #include "reduction/group.h"
 #include "reduction/section.h"
 #include "reduction/subspace.h"

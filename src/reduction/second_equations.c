@@ -2,6 +2,7 @@
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
+#include "graph/dag.h"
 #include "reduction/second.h"
 #include "reduction/subspace.h"
 

@@ -5,6 +5,9 @@
 
 #include "exact/normal.h"
 #include "exact/relation_space.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "integrals/fixed.h"
 #include "integrals/recognise.h"
 #include "reduction/subspace.h"

@@ -5,6 +5,8 @@
 
 #include "base/linalg.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "reduction/subspace.h"
 
 enum { trial_places = 10, most_subsets = 4000 };

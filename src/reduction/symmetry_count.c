@@ -6,6 +6,7 @@
 #include "exact/form.h"
 #include "exact/generic_value.h"
 #include "exact/residue_matrix.h"
+#include "graph/node.h"
 #include "reduction/symmetry_rays.h"
 
 enum { canonical_length = 2000, most_points = 400, most_nodes = 400000, most_coordinates = 16 };

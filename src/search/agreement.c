@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "graph/dag.h"
 #include "search/counted.h"
 #include "search/spans.h"
 

@@ -1,6 +1,7 @@
 #include "search/branch.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 
 nh_model *nh_branch_other(const nh_model *o, const nh_options *options)
 {

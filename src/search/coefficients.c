@@ -5,6 +5,8 @@
 
 #include "count/lift.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "integrals/companion.h"
 #include "integrals/fixed.h"
 #include "integrals/prove.h"

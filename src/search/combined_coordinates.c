@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 
 typedef struct {

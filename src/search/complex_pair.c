@@ -6,6 +6,8 @@
  * (zeta' - lambda_2 zeta) exp(-lambda_1 t) is constant, and its conjugate; with p = sqrt((|D| + X)/2) the root is
  * p + i Y/(2 p): roots of real numbers only. */
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "search/stage_solver.h"
 
 typedef struct {

@@ -1,7 +1,10 @@
 #include "search/constraint_integrals.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "integrals/force_potential.h"
 
 enum { generic_count = 24, own_seed = 505 };

@@ -8,6 +8,8 @@
 #include "base/progress.h"
 #include "exact/walls.h"
 #include "graph/diff.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 static const double no_degree = INFINITY; /* not polynomial in the velocities */
 

@@ -8,6 +8,7 @@
 #include "graph/declared.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/print.h"
 #include "search/coefficients.h"
 #include "search/dependence.h"

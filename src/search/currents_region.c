@@ -3,6 +3,8 @@
 
 #include "count/one_side.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "integrals/continued.h"
 #include "search/counted.h"
 #include "search/currents.h"

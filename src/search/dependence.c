@@ -7,6 +7,7 @@
 #include "exact/normal.h"
 #include "graph/print.h"
 #include "exact/relation.h"
+#include "graph/dag.h"
 #include "problem/analysis_file.h"
 
 enum { most_currents = 6, point_factor = 3 };

@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "integrals/fixed.h"
 #include "integrals/symmetry.h"
 

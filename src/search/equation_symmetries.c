@@ -5,6 +5,9 @@
 #include "base/progress.h"
 #include "exact/normal.h"
 #include "exact/relation_express.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 enum { most_letters = 24, most_words = 300, most_columns = 360, most_nodes = 400000, most_dynamical = 12 };
 

@@ -5,7 +5,11 @@
 
 #include "base/budget.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"
 #include "integrals/prove.h"

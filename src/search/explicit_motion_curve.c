@@ -6,9 +6,11 @@
 #include "exact/generic_value.h"
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "graph/monomials.h"
+#include "graph/node.h"
 
 /* ---- expressions along the curve and in the states ---- */
 

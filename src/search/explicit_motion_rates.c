@@ -5,9 +5,12 @@
 #include "exact/antiderivative.h"
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "graph/measure.h"
 #include "graph/named_function.h"
+#include "graph/node.h"
 #include "search/explicit_motion_internal.h"
 
 enum { most_sides = 8 };

@@ -7,6 +7,7 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "search/other_system.h"

@@ -11,6 +11,9 @@
 
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "reduction/generators.h"
 #include "search/stage_solver.h"
 #include "search/stages_internal.h"

@@ -10,7 +10,9 @@
  * none, so that all are proved for all parameters, by the short fields that they have. */
 #include "base/memory.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "integrals/affine_field.h"
 #include "integrals/centre_of_mass.h"
 #include "search/stage_solver.h"

@@ -14,8 +14,12 @@
 #include "count/jet_equations.h"
 #include "exact/normal.h"
 #include "exact/residue_matrix.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "graph/measure.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "integrals/fixed.h"
 #include "search/linear_motion_internal.h"
 

@@ -2,6 +2,10 @@
 #include "search/linear_motion_internal.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 
 typedef nh_linear_motion_block linear;
 

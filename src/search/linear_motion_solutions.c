@@ -7,7 +7,9 @@
  * waves are slow, the functions that an ansatz needs are nearly dependent on the interval of the samples. */
 #include "exact/normal.h"
 #include "exact/relation_space.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "graph/terms.h"
 #include "search/linear_motion_internal.h"
 

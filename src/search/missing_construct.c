@@ -7,6 +7,8 @@
 #include "base/progress.h"
 #include "count/lift.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "integrals/echelon.h"
 #include "search/counted.h"
 #include "search/currents.h"

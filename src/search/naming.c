@@ -1,6 +1,7 @@
 #include "search/naming.h"
 
 #include "graph/index.h"
+#include "graph/node.h"
 #include "integrals/recognise.h"
 #include "system/sample.h"
 

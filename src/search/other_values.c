@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "graph/dag.h"
 #include "integrals/fixed.h"
 
 /* Values of two digits between 1.1 and 1.4 times the given ones, with different factors: relations that hold by chance

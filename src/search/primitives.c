@@ -3,6 +3,8 @@
 #include "count/closed_primitives.h"
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "search/counted.h"
 #include "search/stage_solver.h"
 

@@ -6,6 +6,7 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "graph/measure.h"
+#include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/real_where.h"
 #include "search/currents.h"

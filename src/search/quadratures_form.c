@@ -3,9 +3,13 @@
 
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "graph/measure.h"
 #include "graph/named_function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/terms.h"
 #include "integrals/exact_points.h"
 

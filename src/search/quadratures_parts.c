@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/terms.h"
 #include "integrals/independence.h"
 #include "search/quadratures_internal.h"

@@ -2,7 +2,11 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 #include "integrals/pencil.h"
 #include "integrals/recognise.h"

@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "exact/normal.h"
 #include "exact/relation.h"
+#include "graph/dag.h"
 #include "graph/print.h"
 
 typedef struct {

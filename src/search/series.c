@@ -6,8 +6,11 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "graph/dag.h"
 #include "graph/declared.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/function_series.h"
 #include "integrals/named_squares.h"

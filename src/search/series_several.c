@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/progress.h"
+#include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/box_series.h"
 

@@ -6,6 +6,9 @@
 #include "base/progress.h"
 #include "exact/normal.h"
 #include "geometry/distribution.h"
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "search/missing.h"
 
 enum { most_sides = 4, nested = 4 };

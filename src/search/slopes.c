@@ -6,8 +6,11 @@
 #include "exact/antiderivative.h"
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "graph/measure.h"
+#include "graph/node.h"
 
 enum { most_roots = 4 };
 

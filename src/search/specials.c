@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "graph/dag.h"
 #include "integrals/recognise.h"
 #include "search/naming.h"
 

@@ -6,6 +6,8 @@
 #include "base/budget.h"
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "integrals/force_potential.h"
 #include "integrals/prove.h"
 #include "search/stage_solver.h"

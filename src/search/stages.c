@@ -1,7 +1,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "integrals/shown_coordinates.h"
 #include "search/stages_internal.h"
 

@@ -1,5 +1,6 @@
 /* Stages of few columns for systems of many coordinates: centres of mass and angular momenta.  All products of degree
  * one or two would be too many. */
+#include "graph/dag.h"
 #include "search/stages_internal.h"
 
 /* Momenta times 1 and t, positions, t. */

@@ -3,7 +3,11 @@
  * Where L is a function of D = x' + f(x), D satisfies D' = lambda(x) D along the motion (a Darboux factor), so that
  * quotients by D have short rates: for L = 1/(x' + x^2) the rate of x/D is 1, that of 1/D is x/D. */
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "search/stages_internal.h"
 
 enum { most_denominators = 3, most_variables = 7 };

@@ -1,5 +1,7 @@
 /* Stages for separable systems, for polynomial potentials, and for coefficients that depend on time. */
 
+#include "graph/dag.h"
+#include "graph/function.h"
 #include "search/stages_internal.h"
 
 /* Integrals from separation of variables (Euler's two centres, Liouville's systems): squares of velocities with

@@ -1,5 +1,8 @@
 /* stages_time: functions that the stages add where the Lagrangian, a force or a constraint depends on time. */
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 #include "search/stages_internal.h"
 
 enum { most_powers = 6, longest_walk = 1000 };

@@ -1,6 +1,8 @@
 /* Stages for integrals of degree four in the velocities that are homogeneous with weights, as Kovalevskaya's. */
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 #include "search/stages_internal.h"
 
 /* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "integrals/fixed.h"
 
 enum { together = 8, most_components = 16 };

@@ -4,7 +4,9 @@
 
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "integrals/symmetry.h"
 
 enum { highest = 2, most_products = 150, most_nodes = 300000 };

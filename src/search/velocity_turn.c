@@ -13,7 +13,9 @@
 #include "exact/antiderivative.h"
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 #include "integrals/exact_points.h"
 #include "search/stage_solver.h"
 

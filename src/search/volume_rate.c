@@ -2,7 +2,10 @@
 
 #include "exact/normal.h"
 #include "exact/relation_express.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
 
 enum { largest_form = 2000 };
 

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/diff.h"
 
 /* ---- one screw ---- */

@@ -7,6 +7,7 @@
  * wrenches h A + ad*_V h V.  That is linear in the number of bodies, where derivatives of the metric are quadratic. */
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "system/bodies.h"
 

@@ -1,7 +1,9 @@
 /* bodies_values: the numbers and expressions of `bodies:`, `joints:`, `wheels:` and `gravity:`. */
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "system/bodies_tree.h"
 
 typedef nh_system_reader reader;

@@ -7,6 +7,9 @@
 #include "base/text.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 #include "system/embedding_internal.h"
 

@@ -5,6 +5,7 @@
 
 #include "base/linalg.h"
 #include "exact/generic_value.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "system/domain.h"

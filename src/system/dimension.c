@@ -4,6 +4,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "graph/dag.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 #include "system/units.h"
 

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/print.h"
 #include "system/bodies_tree.h"

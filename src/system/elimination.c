@@ -5,7 +5,9 @@
 
 #include "base/linalg.h"
 #include "base/text.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "exact/normal.h"
 #include "exact/solve.h"
 #include "system/domain.h"

@@ -1,5 +1,6 @@
 /* frame_velocities: the quasi-velocities of a system with orientations whose file chooses none: rates along the frame,
  * without those that the constraints determine. */
+#include "graph/dag.h"
 #include "system/embedding_internal.h"
 #include "system/system_internal.h"
 

@@ -14,7 +14,9 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "system/system_internal.h"
 
 typedef struct {

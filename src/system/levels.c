@@ -7,6 +7,9 @@
 #include "base/linalg.h"
 #include "graph/diff.h"
 #include "evaluate/tape.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "system/domain.h"
 #include "system/sample.h"
 

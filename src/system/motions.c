@@ -1,8 +1,10 @@
 /* motions: closed forms of a system's motions, as its file knows them (known: motions:). */
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/declared.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "system/system_internal.h"
 
 /* start: [p = phi, s = sqrt(v^2 + p^2)], each in the initial state and those before it.  In the motion their names are

@@ -1,7 +1,9 @@
 #include "system/orientation.h"
 
 #include "exact/normal.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 
 /* ---- matrices ---- */
 

@@ -16,8 +16,8 @@
 #ifndef NH_ORIENTATION_H
 #define NH_ORIENTATION_H
 
+#include "graph/expr.h"
 #include "system/deck.h"
-#include "graph/dag.h"
 
 typedef struct {
     const char *name;

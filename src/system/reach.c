@@ -4,6 +4,7 @@
 
 #include "evaluate/tape.h"
 #include "exact/walls.h"
+#include "graph/dag.h"
 #include "system/domain.h"
 #include "system/embedding_internal.h"
 

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/function.h"
 
 /* largest complexity that is simplified: that of a product of two rotation matrices, not of five */
 enum { short_enough = 150 };

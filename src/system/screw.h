@@ -10,7 +10,8 @@
 #ifndef NH_SCREW_H
 #define NH_SCREW_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
+
 
 typedef struct {
     nh_ex R[9], p[3]; /* rotation, row-major: R[3*i + j]; origin */

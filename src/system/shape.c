@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "graph/dag.h"
+
 enum { plane = 2, axes = 6 };
 
 /* given: how many numbers a file gives; a body in space also has its axes. */

@@ -3,7 +3,7 @@
 #ifndef NH_SHAPE_H
 #define NH_SHAPE_H
 
-#include "graph/dag.h"
+#include "graph/expr.h"
 #include "system/deck.h"
 #include "system/screw.h"
 

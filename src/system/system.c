@@ -4,7 +4,11 @@
 
 #include "base/text.h"
 #include "evaluate/tape.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/parse.h"
 #include "graph/print.h"
 #include "system/ordinary.h"

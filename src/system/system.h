@@ -4,7 +4,7 @@
 
 #include "system/deck.h"
 #include "base/memory.h"
-#include "graph/dag.h"
+#include "graph/expr.h"
 #include "system/bodies.h"
 #include "system/orientation.h"
 #include "system/shape.h"

@@ -1,8 +1,10 @@
 /* system_functions: `functions:`, functions of one argument: V(r), f(t), with or without a value. */
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/declared.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "graph/parse.h"
 #include "system/system_internal.h"
 

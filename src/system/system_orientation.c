@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "graph/dag.h"
 #include "graph/parse.h"
 #include "system/system_internal.h"
 

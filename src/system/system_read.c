@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "graph/dag.h"
 #include "graph/declared.h"
 #include "graph/diff.h"
 #include "graph/parse.h"
@@ -133,8 +134,8 @@ static bool read_type(reader *r, const nh_deck_node *node, nh_coordinate_type *o
 
 static bool read_coordinate(reader *r, const nh_deck_node *item)
 {
-    static const char *const keys[] = {"name", "type", "doc", "unit"},
-                             *const turn_keys[] = {"name", "type", "doc", "velocities", "frame"};
+    static const char *const keys[] = {"name", "type", "doc", "unit"}, *const turn_keys[] = {"name", "type", "doc",
+                                                                                             "velocities", "frame"};
     nh_system *s = r->system;
     nh_coordinate *c = &s->coordinate[s->coordinates];
     const nh_deck_node *name = item, *type;
@@ -452,9 +453,8 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     if (!read_parameters(r) || !nh_system_apply_settings(r, settings, setting)) return false;
     return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) &&
            nh_system_read_functions(r, settings, setting) && read_definitions(r, false) && nh_system_read_chain(r) &&
-           nh_system_read_points(r) &&
-           read_definitions(r, true) && read_lagrangian(r) && read_constraints(r) && read_dependent(r) &&
-           nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) &&
+           nh_system_read_points(r) && read_definitions(r, true) && read_lagrangian(r) && read_constraints(r) &&
+           read_dependent(r) && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) &&
            nh_system_read_levels(r) && nh_system_read_symmetry(r) &&
            nh_system_read_drawing(r)
            /* claims about the whole system */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/parse.h"
 #include "system/system_internal.h"

@@ -4,6 +4,7 @@
  * for it.  What the conditions before it imply is therefore left out: the rank of the coefficients (c_1 .. c_m, c_0),
  * c_s v^s + c_0 = 0, tells. */
 #include "exact/generic_value.h"
+#include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/print.h"
 #include "system/bodies_tree.h"

@@ -14,6 +14,7 @@
  * [NeimarkFufaev1972, ch. III].  Its components are taken along a x n (forward), n x (a x n) (sideways) and n. */
 #include <string.h>
 
+#include "graph/dag.h"
 #include "system/bodies.h"
 
 typedef struct {

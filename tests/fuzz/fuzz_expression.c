@@ -13,6 +13,8 @@
 #include "graph/parse.h"
 #include "graph/print.h"
 #include "evaluate/tape.h"
+#include "graph/dag.h"
+#include "graph/node.h"
 
 enum { longest = 2000, largest = 20000 };
 

@@ -8,6 +8,7 @@
 
 #include "geometry/distribution.h"
 #include "geometry/model.h"
+#include "graph/node.h"
 
 enum { longest = 4000, most_coordinates = 4, most_nodes = 150 };
 
