@@ -517,3 +517,27 @@ Test(ordinary_input, rates_of_all_names_in_all_notations)
     }
     place_clear(&p);
 }
+
+/* The column of the time has its usual names; a motion with an input begins at rest at t = 0, and its page says how. */
+Test(ordinary_input, an_input_begins_at_zero_and_comes_back_as_command)
+{
+    static const char *const names[] = {"t", "time", "Time", "TIME [s]", "t (s)", "time_s"};
+    place p = place_make();
+    write_here(&p, "driven.yaml", "parameters: {u: 0}\ncoordinates: {q: angle}\nL: q'^2/2 + cos(q)\nforces: {q: u}\n");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char table[100];
+        snprintf(table, sizeof table, "%s,force\n0,0\n1,0.5\n2,0\n", names[i]);
+        write_here(&p, "u.csv", table);
+        finished found = run_expecting(&p, "simulate driven.yaml --until 1 --step 1 --input u=u.csv:force --html page.html", 0);
+        char *page = read_here(&p, "page.html");
+        cr_expect(strstr(found.out, "\n0,") && strstr(found.out, ",0,"), "%s: %s", names[i], found.out);
+        cr_expect(strstr(page, "nhsym simulate driven.yaml --input \\\"u=u.csv:force\\\""), "%s", names[i]);
+        nh_free(page);
+        finished_clear(&found);
+    }
+    write_here(&p, "u.csv", "clock,force\n0,0\n1,0.5\n");
+    finished found = run_expecting(&p, "simulate driven.yaml --until 1 --step 1 --input u=u.csv:force", 3);
+    cr_expect(strstr(found.err, "there is no column `t`"), "%s", found.err);
+    finished_clear(&found);
+    place_clear(&p);
+}
