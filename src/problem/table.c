@@ -168,7 +168,8 @@ bool nh_table_is_time(const char *name)
 {
     size_t word = strncasecmp(name, "time", strlen("time")) ? *name == 't' : strlen("time");
     const char *unit = name + word + strspn(name + word, " _");
-    return word && (!*unit || !strcmp(unit, "[s]") || !strcmp(unit, "(s)") || (*unit == 's' && !unit[1] && unit[-1] == '_'));
+    bool second = !strcmp(unit, "[s]") || !strcmp(unit, "(s)") || (!strcmp(unit, "s") && unit[-1] == '_');
+    return word && (!*unit || second);
 }
 
 size_t nh_table_column(const nh_table *t, const char *name, nh_error *error)

@@ -226,7 +226,8 @@ static void hint_known(const nh_deck *deck, const nh_deck_node *map, size_t i, c
     if (hint_block(deck, map->item[i], word, known, count, error)) return;
     nh_text list;
     nh_text_init(&list);
-    if (deck->source[map->begin] == '{' && word[strspn(word, letters)]) /* an expression that was split at its comma? */
+    bool split = deck->source[map->begin] == '{' && word[strspn(word, letters)]; /* an expression, at its comma? */
+    if (split)
         nh_text_add(&list, "if it belongs to an expression, put the expression in double quotes; ");
     list_known(known, count, &list);
     nh_error_hint(error, "%s", nh_text_string(&list));
