@@ -68,6 +68,7 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     double x;
     if (strchr(name, '(')) { /* of a function */
         cli->ask.setting[cli->ask.settings++] = (nh_setting){.name = name, .input = value};
+        nh_request_typed(&cli->ask, "set", name, value);
         return true;
     }
     if (!nh_request_number(value, &x)) {

@@ -96,6 +96,8 @@ bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *q, const 
     *out = (nh_simulate_rows){.row = nh_arena_alloc(arena, t->rows * sizeof *out->row)};
     for (size_t j = 0; j < t->columns && good; j++) {
         name[j] = nh_arena_strdup(arena, nh_system_state_name(s, t->name[j])); /* the system goes before the table */
+        bool own = is_parameter(s, name[j]) || nh_system_coordinate(s, name[j]) >= 0;
+        if (!own && nh_table_is_time(name[j])) name[j] = "t";
         kind[j] = is_parameter(s, name[j]) ? COLUMN_PARAMETER : COLUMN_STATE;
         out->parameters += kind[j] == COLUMN_PARAMETER;
         if (kind[j] == COLUMN_STATE) good = is_state(arena, t, s, name[j], error);

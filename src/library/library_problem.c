@@ -260,6 +260,7 @@ static void drive(void *argument)
     nh_problem *p = d->problem;
     nh_request *r = &p->request;
     nh_setting *before = r->setting;
+    const char *words = r->system_words;
     size_t count = r->settings;
     r->setting = nh_arena_alloc(p->arena, (count + 1) * sizeof *r->setting);
     if (count) memcpy(r->setting, before, count * sizeof *before);
@@ -269,7 +270,7 @@ static void drive(void *argument)
                             : NULL;
     d->good = system != NULL;
     if (!system) {
-        r->setting = before, r->settings = count;
+        r->setting = before, r->settings = count, r->system_words = words;
         return;
     }
     nh_system_free(p->system);

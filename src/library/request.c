@@ -73,11 +73,18 @@ bool nh_request_methods(nh_request *q, const char *list, nh_error *error)
     return true;
 }
 
+void nh_request_typed(nh_request *q, const char *option, const char *name, const char *text)
+{
+    const char **words = q->system_words ? &q->system_words : &q->typed; /* before the system is known: behind it */
+    *words = nh_arena_printf(q->arena, "%s --%s \"%s=%s\"", *words ? *words : "", option, name, text);
+}
+
 bool nh_request_input(nh_request *q, const char *name, const char *text, nh_error *error)
 {
     const char *input = nh_input_text(q->arena, name, text, error);
     if (!input) return false;
     q->setting[q->settings++] = (nh_setting){.name = name, .input = input};
+    nh_request_typed(q, "input", name, text);
     return true;
 }
 
@@ -156,7 +163,7 @@ static const char *system_words(const nh_request *q, const char *word)
     for (size_t i = 0; i < q->wheels; i++) text = nh_arena_printf(q->arena, "%s --wheel \"%s\"", text, q->wheel[i]);
     if (q->base) text = nh_arena_printf(q->arena, "%s --base \"%s\"", text, q->base);
     for (size_t i = 0; i < q->ons; i++) text = nh_arena_printf(q->arena, "%s --on \"%s\"", text, q->on[i]);
-    return text;
+    return q->typed ? nh_arena_printf(q->arena, "%s%s", text, q->typed) : text;
 }
 
 bool nh_request_system(nh_request *q, const char *word, nh_error *error)

@@ -21,7 +21,8 @@ typedef struct {
     nh_arena *arena;             /* of its strings */
     const char *command, *line;  /* "analyze"; all that was typed, for reports */
     const char *system_path, *analysis_path;
-    const char *system_words;    /* the system as it was typed, with its --wheel, --base, --on, for a command line */
+    const char *system_words;    /* the system as typed, with its --wheel, --base, --on, --input, for a command line */
+    const char *typed;           /* inputs and functions of it that were typed before the system, or NULL */
     size_t settings;
     nh_setting *setting;
     nh_chart_choice velocities;
@@ -73,6 +74,8 @@ bool nh_request_velocities(nh_request *request, const char *word, nh_error *erro
 bool nh_request_method(nh_request *request, const char *word, nh_error *error);
 /* The entries of a list of integrators. */
 bool nh_request_methods(nh_request *request, const char *list, nh_error *error);
+/* Remembers "--option NAME=TEXT" for a command line that names the system. */
+void nh_request_typed(nh_request *request, const char *option, const char *name, const char *text);
 /* A parameter over time: an expression of t, or FILE.csv:COLUMN.  There is room for one more setting. */
 bool nh_request_input(nh_request *request, const char *name, const char *text, nh_error *error);
 

@@ -79,8 +79,9 @@ static bool velocities_at(const nh_model *o, double *z, double *v)
 bool nh_first_state(const nh_model *o, double *z, double *v)
 {
     double *given = nh_alloc_array(o->width + 1, sizeof *given);
-    if (!depends_on_time(o)) z[0] = 0;
+    if (!depends_on_time(o) || o->system->driven) z[0] = 0;
     memcpy(given, z, o->width * sizeof *given);
+    if (o->system->driven) memset(z + 1 + o->m, 0, o->n * sizeof *z);
     round_point(o, z);
     leave_poles(o, z);
     bool good = velocities_at(o, z, v);

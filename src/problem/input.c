@@ -55,7 +55,7 @@ static const char *no_column(nh_arena *arena, const char *name, const char *path
     nh_table *t = nh_table_read(arena, path, error);
     const char *column = NULL;
     for (size_t i = 0; t && i < t->columns; i++)
-        if (!column && strcmp(t->name[i], "t") != 0) column = t->name[i];
+        if (!column && !nh_table_is_time(t->name[i])) column = t->name[i];
     if (!t) return NULL;
     nh_fail(error, NH_USAGE, "", "--input %s needs a column of %s", name, path);
     if (column)

@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/files.h"
 #include "base/text.h"
@@ -163,10 +164,20 @@ static void hint_columns(const nh_table *t, nh_error *error)
     nh_text_clear(&list);
 }
 
+bool nh_table_is_time(const char *name)
+{
+    size_t word = strncasecmp(name, "time", strlen("time")) ? *name == 't' : strlen("time");
+    const char *unit = name + word + strspn(name + word, " _");
+    bool second = !strcmp(unit, "[s]") || !strcmp(unit, "(s)") || (!strcmp(unit, "s") && unit[-1] == '_');
+    return word && (!*unit || second);
+}
+
 size_t nh_table_column(const nh_table *t, const char *name, nh_error *error)
 {
     for (size_t i = 0; i < t->columns; i++)
         if (!strcmp(t->name[i], name)) return i;
+    for (size_t i = 0; i < t->columns && !strcmp(name, "t"); i++)
+        if (nh_table_is_time(t->name[i])) return i;
     const char *near = nh_text_nearest(name, t->name, t->columns);
     nh_fail(error, NH_INPUT, t->path, "there is no column `%s`", name);
     if (near) nh_error_hint(error, "did you mean `%s`?", near);

@@ -18,6 +18,8 @@ typedef struct {
 /* In the arena; fields may stand in double quotes, empty lines and those that begin with # are left out.  NULL with
    file and line. */
 nh_table *nh_table_read(nh_arena *arena, const char *path, nh_error *error);
+/* Is it a name of the time: t, time, Time [s], t (s), time_s?  Where there is no column t, such a one is it. */
+bool nh_table_is_time(const char *name);
 /* The column of that name; `columns` with a suggestion when there is none. */
 size_t nh_table_column(const nh_table *table, const char *name, nh_error *error);
 /* The number in a cell; false with its place. */

@@ -115,6 +115,7 @@ typedef struct {
     nh_ex lagrangian;        /* with the energies of bodies and joints */
     nh_ex *force;            /* per coordinate; the number 0 where there is none */
     bool has_forces;
+    bool driven; /* an input over time replaces a parameter */
     int branch;              /* of a quadratic constraint: the sign of its root, or 0: the domain chooses */
     size_t dependents;       /* 0 when the user named none */
     size_t *dependent;       /* coordinate indices */

@@ -41,7 +41,7 @@ static bool make_input(reader *r, nh_parameter *p, const nh_setting *setting)
         return nh_fail(r->error, NH_USAGE, "--input", "the input `%s` depends on itself", name);
     s->definition[s->definitions++] = (nh_named){.name = name, .text = text, .value = value};
     remove_parameter(s, p);
-    return true;
+    return s->driven = true;
 }
 
 /* Those that have exact values already are definitions. */
