@@ -621,7 +621,9 @@ Test(typed, unknown_keys)
     nh_deck_free(deck);
     cr_expect_str_eq(not_only("name: x\nexrp: 1\n"), "f.yaml:2:1: unknown key `exrp`\n  exrp: 1\n  ^\nhint: did you mean `expr`?");
     cr_expect_str_eq(not_only("colour: 1\n"), "f.yaml:1:1: unknown key `colour`\n  colour: 1\n  ^\nhint: known keys: name, expr, source");
-    cr_expect_str_eq(not_only("{expr: 1, y: 3}\n"), "f.yaml:1:11: unknown key `y`\n  {expr: 1, y: 3}\n            ^\nhint: if it belongs to an expression, " QUOTE "; known keys: name, expr, source");
+    cr_expect_str_eq(not_only("{expr: 1, y: 3}\n"), "f.yaml:1:11: unknown key `y`\n  {expr: 1, y: 3}\n            ^\nhint: known keys: name, expr, source");
+    cr_expect_str_eq(not_only("{expr: 1, y): 3}\n"), "f.yaml:1:11: unknown key `y)`\n  {expr: 1, y): 3}\n            ^\nhint: if it belongs to an expression, " QUOTE "; known keys: name, expr, source");
+    cr_expect_str_eq(not_only("{name: a, Formula: 3}\n"), "f.yaml:1:11: unknown key `Formula`\n  {name: a, Formula: 3}\n            ^\nhint: did you mean `expr`?");
     cr_expect_str_eq(not_only("- x\n"), "f.yaml:1:1: this entry must be a map (`key: value`), found a list\n  - x\n  ^");
 }
 

@@ -480,3 +480,40 @@ Test(ordinary_input, tables)
     finished_clear(&wanted);
     place_clear(&p);
 }
+
+/* Every notation of a rate, of every kind of name that has one; and of those that have none, the reason. */
+Test(ordinary_input, rates_of_all_names_in_all_notations)
+{
+    static const struct {
+        const char *name, *dotted, *definitions, *refused; /* refused: what is said */
+    } of[] = {{"x", "ẋ", "", NULL},
+              {"xc", NULL, "xc: x + a*cos(phi)", NULL},
+              {"x_c", "ẋ_c", "x_c: x + a*cos(phi)", NULL},
+              {"x_1", "ẋ_1", "x_1: 2*x", NULL},
+              {"h", "ḣ", "h0: x + t, h: h0^2", NULL},
+              {"θ", "θ̇", "θ: sin(t)", NULL},
+              {"w", "ẇ", "w: a*x'", "contains accelerations"},
+              {"a", "ȧ", "", "`a` is neither"},
+              {"zeta", "ζ̇", "", "under `definitions:`"}};
+    static const char *const how[] = {"%s'", "%s_dot", "%sdot", "\\dot{%s}", "d%s/dt", "diff(%s, t)", "Derivative(%s(t), t)", ""};
+    place p = place_make();
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        finished wanted = {.out = NULL};
+        for (size_t k = 0; k < sizeof how / sizeof *how; k++) {
+            char rate[64], file[400];
+            if (!*how[k] && !of[i].dotted) continue;
+            if (!strcmp(of[i].name, "zeta") && k == 2) continue; /* zetadot may be a name of its own */
+            snprintf(rate, sizeof rate, *how[k] ? how[k] : of[i].dotted, of[i].name);
+            snprintf(file, sizeof file, "parameters: {a: 0.3}\ncoordinates: [x, y, phi]\ndefinitions: {%s}\n"
+                     "L: x'^2/2 + y'^2 + phi'^2 + (%s)^2\nforces:\n  - y = -(%s)\n", of[i].definitions, rate, rate);
+            write_here(&p, "rates.yaml", file);
+            finished found = run_expecting(&p, "simulate rates.yaml -q --until 0.2 --step 0.1 --initial x=1,x'=2", of[i].refused ? 3 : 0);
+            if (of[i].refused) cr_expect(strstr(found.err, of[i].refused), "%s: %s", rate, found.err);
+            else if (k) cr_expect_str_eq(found.out, wanted.out, "%s", rate);
+            if (k) finished_clear(&found);
+            else wanted = found;
+        }
+        finished_clear(&wanted);
+    }
+    place_clear(&p);
+}

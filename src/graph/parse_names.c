@@ -167,6 +167,7 @@ static bool declared_call(parser *p, const char *word, size_t f, nh_ex *out)
 static bool knows(parser *p, const char *word, nh_ex *out)
 {
     nh_parse_fault kept = *p->fault;
+    p->fault->what[0] = 0;
     bool known = p->resolve(p->context, word, out, p->fault);
     *p->fault = kept;
     return known;
@@ -186,6 +187,13 @@ static bool take(parser *p, const char *text)
 /* Behind x: is it x(t)? */
 static bool take_time(parser *p) { return p->text[p->at] == '(' && take(p, "(t)"); }
 
+/* The rate of `name`, which has room for a prime; where there is none, p->fault says why. */
+static bool rate_of(parser *p, char *name, nh_ex *out)
+{
+    p->fault->what[0] = p->fault->hint[0] = 0;
+    return p->resolve(p->context, strcat(name, "'"), out, p->fault);
+}
+
 /* diff(x, t), Derivative(x(t), t), behind the first word. */
 static bool derivative(parser *p, const char *word, nh_ex *out)
 {
@@ -198,7 +206,7 @@ static bool derivative(parser *p, const char *word, nh_ex *out)
     nh_parse_peek(p);
     p->at += nh_name_spelled(p->text + p->at, name, NH_PARSE_NAME + 1);
     take_time(p);
-    bool good = take(p, ",t)") && knows(p, strcat(name, "'"), out);
+    bool good = take(p, ",t)") && rate_of(p, name, out);
     if (!good) p->at = start;
     return good;
 }
@@ -209,11 +217,10 @@ static bool quotient_of_differentials(parser *p, const char *word, nh_ex *out)
     char name[NH_PARSE_NAME + 4];
     nh_ex taken;
     size_t start = p->at;
-    if (*word != 'd' || !word[1] || strchr(word, '\'')) return false;
-    snprintf(name, sizeof name, "%s'", word + 1);
-    if (!knows(p, name, out) || knows(p, "dt", &taken)) return false;
+    if (*word != 'd' || !word[1] || strchr(word, '\'') || knows(p, "dt", &taken)) return false;
+    snprintf(name, sizeof name, "%s", word + 1);
     take_time(p);
-    if (take(p, "/dt")) return true;
+    if (take(p, "/dt") && rate_of(p, name, out)) return true;
     return p->at = start, false;
 }
 
@@ -267,11 +274,28 @@ static bool propose_factors(parser *p, const char *word, size_t at)
     return factors_of(p, word, 0, out, sizeof out) && (nh_parse_propose(p, at, nh_parse_token_end(p), out), true);
 }
 
+/* A dot on the first letter alone, as of xc, is read x' c: is xc' known? */
+static bool propose_prime_behind(parser *p, size_t at)
+{
+    char head[NH_PARSE_NAME + 4], tail[NH_PARSE_NAME + 2], rate[2 * NH_PARSE_NAME + 8];
+    size_t begin = at, end;
+    nh_ex any;
+    if (begin && p->text[begin - 1] == '\'')
+        while (begin && (isalnum((unsigned char)p->text[begin - 1]) || strchr("_'", p->text[begin - 1]))) begin--;
+    end = begin + nh_name_spelled(p->text + begin, head, sizeof head - 2);
+    if (p->text[end] != '\'') return false;
+    size_t n = nh_name_spelled(p->text + end + 1, tail, sizeof tail - 1);
+    snprintf(rate, sizeof rate, "%s%s'", head, tail);
+    return n && knows(p, rate, &any) && (nh_parse_propose(p, begin, end + 1 + n, rate), true);
+}
+
 /* The caller does not know the name, or has explained why it cannot stand here. */
 static bool unresolved(parser *p, const char *word, size_t at)
 {
     nh_parse_fault *fault = p->fault;
-    bool unknown = !fault->what[0] || !strncmp(fault->what, "unknown name", strlen("unknown name")),
+    bool rate = !strncmp(fault->what, "unknown name", strlen("unknown name")) && strstr(fault->what, "'`") &&
+                !strchr(word, '\''); /* of a_dot, da/dt or diff(a, t), a' is what is not known */
+    bool unknown = !rate && (!fault->what[0] || !strncmp(fault->what, "unknown name", strlen("unknown name"))),
          called = nh_parse_peek(p) == '(';
     fault->offset = at;
     if (unknown) snprintf(fault->what, sizeof fault->what, "unknown %s `%s`", called ? "function" : "name", word);
@@ -279,7 +303,7 @@ static bool unresolved(parser *p, const char *word, size_t at)
     const char *instead = unknown && applied ? nh_function_elsewhere(word) : NULL,
                *near = unknown && called ? nh_function_nearest(word) : NULL; /* nearer than a coordinate s to sn(x) */
     if (instead) return nh_parse_hint(p, "%s", instead);
-    if (unknown && propose_factors(p, word, at)) return false;
+    if (unknown && (propose_prime_behind(p, at) || propose_factors(p, word, at))) return false;
     if (near) return nh_parse_hint(p, "did you mean `%s`?", near);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
     return nh_parse_hint(p, "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs, those of `nhsym explain "

@@ -201,18 +201,22 @@ static bool spell_brace(speller *s)
     return s->at += n, true;
 }
 
-/* Does the index of a name go on here? */
-static bool indexes(const char *at)
+/* Does the index of a name go on here?  That of x_c has letters. */
+static bool indexes(const speller *s)
 {
     size_t length;
-    const char *letter = nh_name_of_letter(at, &length);
+    const char *at = s->at, *letter = nh_name_of_letter(at, &length);
+    size_t n = s->out.length;
+    while (n && isalnum((unsigned char)s->out.data[n - 1])) n--;
+    bool below = n && s->out.data[n - 1] == '_' && !isdigit((unsigned char)s->out.data[n]);
+    if (below && (letter || isalpha((unsigned char)*at))) return true;
     return *at == '_' || isdigit((unsigned char)*at) || (letter && isdigit((unsigned char)*letter)) ||
            !strncmp(at, "\u0307", 2) || !strncmp(at, "\u0308", 2);
 }
 
 static void spell_one(speller *s)
 {
-    if (s->primes && !indexes(s->at)) put_primes(s);
+    if (s->primes && !indexes(s)) put_primes(s);
     if (spell_fraction(s) || spell_dot(s) || spell_function(s) || spell_power(s) || spell_dotted(s) || spell_sign(s) ||
         spell_brace(s))
         return;

@@ -1,6 +1,7 @@
 /* deck: access to the tree, with messages.  See deck.h; deck_read.c builds the tree. */
 #include "system/deck.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -154,17 +155,78 @@ static void list_known(const char *const *known, size_t count, nh_text *out)
         nh_text_addf(out, "%s%s", i > 0 ? ", " : "known keys: ", known[i]);
 }
 
-static void hint_known(const nh_deck *deck, const nh_deck_node *map, const char *word, const char *const *known,
+/* The key that is called `word` elsewhere, if it is known here and not yet written; NULL: none. */
+static const char *called(const nh_deck_node *map, const char *word, const char *const *known, size_t count)
+{
+    static const char *const other[][2] = {
+        {"force", " torque moment effort tau load "},
+        {"torque", " force moment effort tau "},
+        {"stiffness", " k constant spring_constant spring_rate elasticity "},
+        {"damping", " c d b friction viscosity coefficient "},
+        {"rest", " length l0 rest_length rest_angle equilibrium neutral offset "},
+        {"length", " rest l0 rest_length natural_length free_length "},
+        {"between", " points ends from "},
+        {"mass", " m weight "},
+        {"inertia", " i j inertia_tensor tensor_of_inertia moment_of_inertia moments_of_inertia "},
+        {"center", " com cog cm center_of_mass centre_of_mass position "},
+        {"rotation", " orientation rpy turn "},
+        {"parent", " base from predecessor "},
+        {"child", " to link successor body "},
+        {"body", " link frame parent "},
+        {"at", " position pos location place point origin xyz anchor "},
+        {"axis", " direction xyz "},
+        {"pitch", " lead "},
+        {"radius", " r "},
+        {"value", " default val number amount "},
+        {"unit", " units dimension "},
+        {"type", " kind joint_type "},
+        {"doc", " description comment note remark help info text "},
+        {"name", " id label symbol "},
+        {"expr", " expression formula value equation "},
+        {"initial", " start state x0 initial_state "},
+        {"time", " until span duration t_span "},
+        {"bodies", " links rigid_bodies "},
+        {"actuators", " motors inputs controls "},
+        {"domain", " range ranges bounds limits "},
+        {"dissipation", " rayleigh damping friction "}};
+    char plain[NH_DECK_SHOWN + 2] = " ";
+    size_t n = 1;
+    for (; *word && n < sizeof plain - 2; word++)
+        plain[n++] = strchr(" -", *word) ? '_' : (char)tolower((unsigned char)*word);
+    plain[n] = ' ';
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+        for (size_t j = 0; j < count && strstr(other[i][1], plain); j++)
+            if (!strcmp(known[j], other[i][0]) && !nh_deck_get(map, known[j])) return known[j];
+    return NULL;
+}
+
+/* At the top of a file: `x2: l*sin(theta)` is a definition, and `m: 2` a parameter. */
+static bool hint_block(const nh_deck *deck, const nh_deck_node *value, const char *word, const char *const *known,
                        size_t count, nh_error *error)
 {
-    const char *near = nh_text_nearest(word, known, count);
+    const char *text = value->kind == NH_DECK_SCALAR && value->plain ? value->text : "";
+    bool number = nh_text_is_number(text), top = false;
+    for (size_t j = 0; j < count; j++) top |= !strcmp(known[j], number ? "parameters" : "definitions");
+    if (!top || deck->hidden || (!number && !strpbrk(text, "+-*/^(")) || strlen(text) > 80) return false;
+    nh_error_hint(error, number ? "write `- {name: %s, value: %s}` under `parameters:`"
+                                : "write `- %s = %s` under `definitions:`", word, text);
+    return true;
+}
+
+static void hint_known(const nh_deck *deck, const nh_deck_node *map, size_t i, const char *const *known, size_t count,
+                       nh_error *error)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_ -";
+    const char *word = map->key[i]->text, *near = called(map, word, known, count);
+    if (!near) near = nh_text_nearest(word, known, count);
     if (near) {
         nh_error_hint(error, "did you mean `%s`?", near);
         return;
     }
+    if (hint_block(deck, map->item[i], word, known, count, error)) return;
     nh_text list;
     nh_text_init(&list);
-    if (deck->source[map->begin] == '{') /* is it an expression that was split at its comma? */
+    if (deck->source[map->begin] == '{' && word[strspn(word, letters)]) /* an expression that was split at its comma? */
         nh_text_add(&list, "if it belongs to an expression, put the expression in double quotes; ");
     list_known(known, count, &list);
     nh_error_hint(error, "%s", nh_text_string(&list));
@@ -186,7 +248,7 @@ bool nh_deck_only(const nh_deck *deck, const nh_deck_node *map, const char *cons
         bool fresh = error && error->code == NH_OK;
         nh_deck_fail(deck, map->key[i], 0, error, "unknown key `%s`", shown);
         if (fresh)
-            hint_known(deck, map, map->key[i]->text, known, count, error);
+            hint_known(deck, map, i, known, count, error);
         return false;
     }
     return true;

@@ -124,6 +124,11 @@ static bool hint_line(const nh_deck *deck, size_t at, nh_error *error)
     const char *rest = source + next + 1 + strspn(source + next + 1, " ");
     int length = (int)(source + end - rest), word = (int)(key - at);
     if (length <= 0 || length > 120) return false;
+    bool top = !at || nh_deck_is_break(source[at - 1]);
+    if (source[next] == '=' && top && strpbrk(rest, "+-*/^(") && strpbrk(rest, "+-*/^(") < rest + length)
+        return nh_error_hint(error, "write `%.*s: %.*s` if this is a key; other quantities stand under `definitions:`, "
+                             "as `- %.*s = %.*s`", word, source + at, length, rest, word, source + at, length, rest),
+               true;
     if (source[next] == '=')
         return nh_error_hint(error, "write a colon after the key: `%.*s: %.*s`", word, source + at, length, rest), true;
     if (source[next] != ':') return false;
@@ -149,6 +154,19 @@ static size_t visible(const nh_deck *deck, size_t at)
     return at;
 }
 
+/* The line before, if it is `name = ...`: with it, this one is a single text; else `at`. */
+static size_t equation_before(const nh_deck *deck, size_t at)
+{
+    size_t line = at;
+    while (line > 0 && !nh_deck_is_break(deck->source[line - 1])) line--;
+    size_t before = line ? line - 1 : 0;
+    while (before > 0 && !nh_deck_is_break(deck->source[before - 1])) before--;
+    size_t word = before;
+    while (isalnum((unsigned char)deck->source[word]) || deck->source[word] == '_') word++;
+    size_t sign = word + strspn(deck->source + word, " ");
+    return line && word > before && deck->source[sign] == '=' ? before : at;
+}
+
 bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const char *context, size_t since,
                      nh_error *error)
 {
@@ -167,7 +185,11 @@ bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const 
         const rewording *row = &table[i];
         if (!matches(row, problem, context))
             continue;
-        size_t spot = row->at_context ? since : at;
+        size_t spot = row->at_context ? since : at, equation = equation_before(deck, spot);
+        if (!row->context && strstr(row->problem, "mapping values") && equation < spot) {
+            nh_deck_fail_at(deck, equation, error, "expected `key: value`");
+            if (hint_line(deck, equation, error)) return false;
+        }
         if (row->what)
             nh_deck_fail_at(deck, spot, error, "%s", row->what);
         else

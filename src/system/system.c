@@ -96,8 +96,14 @@ static const char *suggest(const scope *s, const char *name, nh_parse_fault *fau
     for (int f = 0; f < NH_FUNCTION_COUNT; f++) list[n++] = nh_function_name((nh_function)f);
     snprintf(fault->what, sizeof fault->what, "unknown name `%s`", name);
     const char *near = nh_text_nearest(name, list, n), *prime = strchr(name, '\'');
-    bool meant = near && (!prime || strchr(near, '\'')); /* m' is not a misspelt m */
+    bool meant = near && (!prime || strchr(near, '\'')), stem = false; /* m' is not a misspelt m */
+    for (size_t i = 0; prime && i < n; i++)
+        stem |= strlen(list[i]) == (size_t)(prime - name) && !strncmp(list[i], name, (size_t)(prime - name));
     if (meant) snprintf(fault->hint, sizeof fault->hint, "did you mean `%s`?", near);
+    else if (prime && !stem)
+        snprintf(fault->hint, sizeof fault->hint,
+                 "`%.*s` is not known: write `- %.*s = ...` under `definitions:`, or name it under `coordinates:`",
+                 (int)(prime - name), name, (int)(prime - name), name);
     else if (prime)
         snprintf(fault->hint, sizeof fault->hint,
                  "a prime marks the velocity of a coordinate or the time derivative of a definition; `%.*s` is neither",
@@ -310,7 +316,8 @@ long nh_system_coordinate(const nh_system *system, const char *name)
 
 const char *nh_system_state_name(const nh_system *s, const char *name)
 {
-    static const char *const around[][2] = {{"", "_dot"}, {"", "dot"}, {"d", "/dt"}};
+    static const char *const around[][3] = {
+        {"", "_dot", "'"}, {"", "dot", "'"}, {"d", "/dt", "'"}, {"", "_ddot", "''"}, {"", "ddot", "''"}};
     size_t length = strlen(name);
     bool start = length > 3 && !strcmp(name + length - 3, "(0)"); /* x(0) = 1 */
     name = nh_deck_spelled(s->arena, start ? nh_arena_strndup(s->arena, name, length - 3) : name);
@@ -321,8 +328,9 @@ const char *nh_system_state_name(const nh_system *s, const char *name)
         size_t head = strlen(around[i][0]), tail = strlen(around[i][1]);
         if (length <= head + tail || strncmp(name, around[i][0], head) || strcmp(name + length - tail, around[i][1]))
             continue;
-        long q = nh_system_coordinate(s, nh_arena_strndup(s->arena, name + head, length - head - tail));
-        if (q >= 0) return nh_arena_printf(s->arena, "%s'", s->coordinate[q].name);
+        const char *stem = nh_deck_spelled(s->arena, nh_arena_strndup(s->arena, name + head, length - head - tail));
+        bool known = nh_symbol_find(s->dag, stem, &taken) || in_named(s->definitions, s->definition, stem, &taken);
+        if (known || !i) return nh_arena_printf(s->arena, "%s%s", stem, around[i][2]);
     }
     return name;
 }
