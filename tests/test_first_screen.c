@@ -112,6 +112,61 @@ Test(first_screen, quantities_are_told_in_the_words_of_mechanics)
     place_clear(&p);
 }
 
+/* A robot from a URDF file: bodies by name, the ground it stands on, and symmetries that cost no line in a full screen. */
+Test(first_screen, of_robots)
+{
+    static const struct {
+        const char *file, *options, *says[6];
+    } screens[] = {
+        {"arm_robot.urdf", "", {"mass: chassis 6, left_wheel 0.5", "Energy. From the symmetry in time.", "3 p_right = right'/500",
+                                "conjugate to left and right. From turning left and right.", "6 p_turret = ", "--wheel left_wheel,right_wheel lets them roll"}},
+    };
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof screens / sizeof *screens; i++) {
+        char line[900];
+        snprintf(line, sizeof line, "analyze %.600s/tests/data/urdf/%s --option work=600 --until 1 %s", p.project, screens[i].file, screens[i].options);
+        finished f = run(&p, line);
+        cr_expect(f.code == 0 || f.code == 5, "%s: %d %s", line, f.code, f.err);
+        check_screen(line, f.out);
+        one_line(f.out);
+        for (char *c = f.out; *c; c++)
+            while (*c == ' ' && c[1] == ' ') memmove(c, c + 1, strlen(c));
+        for (size_t k = 0; k < 6 && screens[i].says[k]; k++) cr_expect(strstr(f.out, screens[i].says[k]), "%s: no `%s` in\n%s", line, screens[i].says[k], f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* E is T + V in place of a long formula only where algebra says so: T of degree 2 in the velocities, V free of them. */
+Test(first_screen, a_long_energy_by_the_names_of_the_file)
+{
+#define LONG "x^2/(1 + x^2 + y^4) + y^2/(2 + x^2*y^2) + sqrt(1 + x^2*y^4)*exp(-x^2 - y^2) + sin(x)^2*cos(y + x^2)/(3 + sin(x*y)) + x^4*y^6/(5 + x^2 + y^2 + sqrt(1 + x^2)) + log(1 + x^4 + y^6)*sqrt(7 + y^2)"
+#define MORE " + exp(-x^4*y^2)*cos(x*y + 3)/(11 + x^6) + y^8/(13 + x^2*y^2 + sqrt(2 + y^2)) + sin(x - y)^3*exp(-y^2)/(17 + cos(x)^2*y^2)"
+    static const struct {
+        const char *kinetic, *potential, *name;
+        bool sum;
+    } cases[] = {
+        {"(x'^2 + y'^2)/2", LONG MORE, "V", true},
+        {"(x'^2 + y'^2)/2", LONG MORE, "U", true},
+        {"(x'^2 + y'^2)/2 + x'^4/4", LONG MORE, "V", false},
+        {"(x'^2 + y'^2)/2", LONG MORE " - y*x' + x^2*y'", "V", false},
+    };
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[2000], sum[40];
+        snprintf(text, sizeof text, "coordinates: [x, y]\nT: %s\n%s: %s\n", cases[i].kinetic, cases[i].name, cases[i].potential);
+        write_here(&p, "energy.yaml", text);
+        finished f = run(&p, "analyze energy.yaml --option work=60 --until 1");
+        cr_expect(f.code == 0 || f.code == 5, "%s: %d %s", text, f.code, f.err);
+        snprintf(sum, sizeof sum, "1  E = T + %s\n", cases[i].name);
+        cr_expect(strstr(f.out, cases[i].sum ? sum : "1  E = a formula of "), "%s%s", text, f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+#undef LONG
+#undef MORE
+}
+
 /* ---- names and symmetries, decided by algebra ---- */
 
 /* From which symmetry a quantity comes: a shift, a turn, a rotation, a boost, a scaling, time, several coordinates. */

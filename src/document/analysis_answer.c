@@ -21,11 +21,12 @@ typedef struct {
     const nh_analysis *r;
     nh_text *out;
     bool colour;
-    /* what is left out where the full answer does not fit: SHORT: long formulas and symmetries; BARE: formulas with
-     * names for their parts as well; LIST: all sentences */
-    enum { FULL, SHORT, BARE, LIST } terse;
+    /* what is left out where the full answer does not fit: SHORT: long formulas; PLAIN: symmetries whose words
+     * take a line as well; BARE: formulas with names for their parts; LIST: all sentences */
+    enum { FULL, SHORT, PLAIN, BARE, LIST } terse;
     bool all_proved;        /* every quantity */
     bool *written;          /* of each: was its formula? */
+    const char *energy;     /* "T + V", or NULL */
     const char **proof;     /* of each: "for all m, k", or the sentence that says how sure it is */
     nh_formula_list list;   /* of the quantities, with common names for repeated parts */
 } screen;
@@ -216,22 +217,40 @@ static void put_quantity(const screen *x, size_t k)
     bool written = !f->series && x->list.stands[k] && !(x->terse >= BARE && has_parts(x, k));
     char *formula = written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL;
     x->written[k] = put_formula(x, k + 1, nh_current_label(r, f), formula,
-                                f->series ? "a series (--details)" : "a long formula (--details)");
+                                f->series ? "a series (--details)" : nh_current_is_energy(f) ? x->energy : NULL);
+}
+
+static bool fits_line(size_t indent, size_t n, const nh_current_words *s, nh_text *out)
+{
+    nh_current_words_put(n, s, out);
+    return indent + out->length <= 80 + 1; /* 1: the blank at its end */
 }
 
 /* The formulas, and below those that belong together what they are. */
 static void put_quantities(const screen *x)
 {
     size_t n = x->r->count;
-    nh_current_words *s = nh_arena_alloc(x->r->arena, (n + 1) * sizeof *s);
+    nh_current_words *full = nh_arena_alloc(x->r->arena, (n + 1) * sizeof *full), *s = full;
+    if (x->terse >= PLAIN) s = nh_arena_alloc(x->r->arena, (n + 1) * sizeof *s);
     nh_text text;
     nh_text_init(&text);
-    for (size_t k = 0; k < n; k++)
-        s[k] = nh_current_words_of(x->r, &x->r->found[k], !x->terse, x->all_proved ? NULL : x->proof[k]);
+    for (size_t k = 0; k < n; k++) {
+        const char *proof = x->all_proved ? NULL : x->proof[k];
+        full[k] = nh_current_words_of(x->r, &x->r->found[k], true, proof);
+        if (s != full) s[k] = nh_current_words_of(x->r, &x->r->found[k], false, proof);
+    }
     for (size_t k = 0, end; k < n; k = end) {
-        for (end = k; end < n && (end == k || nh_current_words_agree(&s[k], &s[end])); end++) put_quantity(x, end);
-        if (x->terse < LIST) nh_current_words_put(end - k, s + k, &text);
-        say(x, end < 10 ? 3 : 4, &text);
+        bool alike = true;
+        for (end = k; end < n && (end == k || nh_current_words_agree(&s[k], &s[end])); end++) {
+            alike &= nh_current_words_agree(&full[k], &full[end]);
+            put_quantity(x, end);
+        }
+        size_t indent = end < 10 ? 3 : 4;
+        if (s != full && !(alike && fits_line(indent, end - k, full + k, &text)))
+            nh_text_clear(&text), nh_current_words_put(end - k, s + k, &text);
+        if (s == full) nh_current_words_put(end - k, s + k, &text);
+        if (x->terse == LIST) nh_text_clear(&text);
+        say(x, indent, &text);
     }
 }
 
@@ -269,8 +288,7 @@ static void put_regions(const screen *x)
         nh_text words;
         nh_text_init(&words);
         char *formula = nh_print_short(r->model->dag, nh_analysis_answer_shown(r, f), r->options.shown);
-        put_formula(x, r->count + k + 1, "", formula,
-                    "a long formula (--details)");
+        put_formula(x, r->count + k + 1, "", formula, NULL);
         nh_text_addf(&words, "Constant only %s. %s%s.", f->region, f->proof.proved ? "Proved" : "",
                      nh_analysis_answer_proof(r, f));
         say(x, r->count + k < 9 ? 3 : 4, &words);
@@ -466,7 +484,10 @@ void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
     screen x = {.r = r, .out = &text, .colour = colour, .all_proved = all_proved(r)};
     x.proof = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.proof);
     x.written = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.written);
-    for (size_t k = 0; k < r->count; k++) x.proof[k] = nh_analysis_answer_proof(r, &r->found[k]);
+    for (size_t k = 0; k < r->count; k++) {
+        x.proof[k] = nh_analysis_answer_proof(r, &r->found[k]);
+        if (nh_current_is_energy(&r->found[k])) x.energy = nh_current_energy_named(r);
+    }
     write(&x);
     while (nh_screen_count(nh_text_string(&text)) > NH_SCREEN_LINES && x.terse < LIST) {
         nh_text_clear(&text);

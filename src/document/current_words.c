@@ -26,6 +26,22 @@ const char *nh_current_label(const nh_analysis *r, const nh_current *f)
     return p && !nh_depends(d, f->phi, nh_symbol(d, p)) ? nh_arena_printf(r->arena, "%s = ", p) : "";
 }
 
+const char *nh_current_energy_named(const nh_analysis *r)
+{
+    const nh_system *s = r->system;
+    const nh_named *kinetic = NULL, *potential = NULL;
+    for (size_t i = 0; i < s->definitions; i++) {
+        const nh_named *x = &s->definition[i];
+        if (!strcmp(x->name, "T")) kinetic = x;
+        else if (!strcmp(x->name, "V") || (!potential && !strcmp(x->name, "U"))) potential = x;
+    }
+    nh_dag *d = r->model->dag;
+    if (!kinetic || !potential) return NULL;
+    nh_ex sum = nh_model_compose(r->model, nh_add(d, kinetic->value, potential->value));
+    bool equal = nh_normal_is_zero(d, nh_sub(d, r->model->E, sum), 0) == NH_ZERO;
+    return equal ? nh_arena_printf(r->arena, "T + %s", potential->name) : NULL;
+}
+
 /* ---- sentences ---- */
 
 static const char *capital(const nh_analysis *r, const char *text)

@@ -11,6 +11,10 @@ nh_ex nh_current_signed(const nh_analysis *result, const nh_current *current, nh
 /* "E = ", "p_x = ", or "": for what stands before the formula; in the arena of the result. */
 const char *nh_current_label(const nh_analysis *result, const nh_current *current);
 
+/* "T + V" where the file defines both and the energy is their sum: algebra decides, as T need not be of degree 2
+ * in the velocities nor V free of them.  NULL: it is not.  In memory of the analysis. */
+const char *nh_current_energy_named(const nh_analysis *r);
+
 /* What is said of a quantity: "Momentum conjugate to x. From shifting x. Proved." */
 typedef struct {
     const char *name, *of;  /* "Momentum conjugate to", "x"; or "" */

@@ -128,7 +128,7 @@ static void momenta(const nh_reduction *r, bool colour, nh_text *out)
         nh_text_init(&words);
         char *value = nh_print_short(r->kinetic->dag, m->value, 80 * NH_SCREEN_LINES);
         nh_screen_put(out, colour, 2, nh_arena_printf(r->arena, "%s = ", nh_reduction_momentum_name(r, m)), value,
-                      most_lines, "a long formula (--details)");
+                      most_lines, NULL);
         nh_free(value);
         nh_text_add(&words, m->moving ? "energy less the momentum of " : "momentum of ");
         put_field(r->kinetic, m->field, &words);

@@ -104,13 +104,15 @@ bool nh_screen_put(nh_text *out, bool colour, size_t indent, const char *head, c
     nh_text line, block;
     nh_text_init(&line);
     nh_text_init(&block);
-    nh_text_addf(&line, "%s%s", head, formula ? formula : instead);
+    nh_text_addf(&line, "%s%s", head, formula ? formula : instead ? instead : "a long formula (--details)");
     nh_sheet_broken(indent, indent + NH_SCREEN_HANG + (indent ? 0 : 2), nh_text_string(&line), &block);
     size_t n = nh_screen_count(nh_text_string(&block));
     bool written = formula && n <= most;
     if (formula && !written) {
         nh_text_clear(&block);
-        nh_text_addf(&block, "%*s%sa formula of %zu lines (--details)\n", (int)indent, "", head, n);
+        nh_text_addf(&block, "%*s%s", (int)indent, "", head);
+        if (instead) nh_text_addf(&block, "%s\n", instead);
+        else nh_text_addf(&block, "a formula of %zu lines (--details)\n", n);
     }
     nh_screen_formula(out, colour, nh_text_string(&block));
     nh_text_clear(&line);

@@ -21,8 +21,8 @@ void nh_screen_say(nh_text *out, size_t indent, nh_text *words);
 void nh_screen_formula(nh_text *out, bool colour, const char *lines);
 /* "  label = e", broken where it is long.  False, and nothing, where it is longer than a screen. */
 bool nh_screen_equation(const char *label, nh_dag *dag, nh_ex e, nh_text *out);
-/* The head, as "E = ", and the formula; or how many lines it has, where these are more than `most`.  NULL: no formula
- * but `instead`.  Was the formula written? */
+/* The head, as "E = ", and the formula; where it is NULL or has more lines than `most`, `instead`, or if that is NULL
+ * words that say so.  Was the formula written? */
 bool nh_screen_put(nh_text *out, bool colour, size_t indent, const char *head, const char *formula, size_t most,
                    const char *instead);
 size_t nh_screen_count(const char *text); /* lines */

@@ -233,7 +233,7 @@ static void put_scene(const nh_simulation *s, nh_text *out)
     if (s->idle && s->idle[0]) nh_text_addf(out, "nhsym: %s\n", s->idle);
     if (s->compared)
         nh_text_addf(
-            out, "nhsym: %.3g ms and %ld evaluations; the whole model takes %.3g ms and %ld, and differs by %.0e\n",
+            out, "nhsym: computed in %.3g ms (%ld evaluations); all states take %.3g ms (%ld), and differ by %.0e\n",
             1e3 * s->scene_seconds, s->motion->evaluations, 1e3 * s->whole_seconds, s->whole_evaluations,
             s->whole_difference);
 }

@@ -61,7 +61,7 @@ nh_flow_problem nh_closed_subsystem_problem(nh_closed_subsystem_run *run, const 
  * be found, or a current no longer determines its state. */
 bool nh_closed_subsystem_point(nh_closed_subsystem_run *run, double t, const double *z, double *point);
 
-/* "2 of 5 states integrated (omega, v), phi and x by quadrature, y dropped; 5 of 8 instructions" */
+/* "2 of 5 states integrated (omega, v), phi and x by quadrature, y not needed; 5 of 8 operations" */
 void nh_closed_subsystem_words(const nh_closed_subsystem *subsystem, nh_text *out);
 /* "the parameters jz3 and l2 have no influence, nor the body column"; empty when all matter. */
 void nh_closed_subsystem_idle_words(const nh_closed_subsystem *subsystem, nh_text *out);

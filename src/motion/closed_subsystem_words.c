@@ -33,12 +33,12 @@ void nh_closed_subsystem_words(const nh_closed_subsystem *s, nh_text *out)
     if (s->levels) {
         nh_text_add(out, ", ");
         list(s, s->kept, s->kept + s->levels, out);
-        nh_text_add(out, s->levels == 1 ? " by a conserved current" : " by conserved currents");
+        nh_text_add(out, s->levels == 1 ? " by a conserved quantity" : " by conserved quantities");
     }
     if (s->kept + s->levels < s->states) {
         nh_text_add(out, ", ");
         list(s, s->kept + s->levels, s->states, out);
-        nh_text_add(out, " dropped");
+        nh_text_add(out, " not needed");
     }
-    nh_text_addf(out, "; %zu of %zu instructions", s->instructions, s->instructions_of_all);
+    nh_text_addf(out, "; %zu of %zu operations", s->instructions, s->instructions_of_all);
 }
