@@ -532,6 +532,7 @@ Test(ordinary_input, an_input_begins_at_zero_and_comes_back_as_command)
         finished found = run_expecting(&p, "simulate driven.yaml --until 1 --step 1 --input u=u.csv:force --html page.html", 0);
         char *page = read_here(&p, "page.html");
         cr_expect(strstr(found.out, "\n0,") && strstr(found.out, ",0,"), "%s: %s", names[i], found.out);
+        cr_expect(strstr(page, "No initial state was given. The program chose this one: q="), "%s", names[i]);
         cr_expect(strstr(page, "nhsym simulate driven.yaml --input \\\"u=u.csv:force\\\""), "%s", names[i]);
         nh_free(page);
         finished_clear(&found);

@@ -84,6 +84,7 @@ void nh_simulation_write(const nh_simulation *s, const nh_run *run, nh_pen_style
     nh_time_series *c = e ? NULL : nh_time_series_of_simulation(s);
     nh_pen_begin(p, style, &subject, e ? "many motions" : "a motion", out);
     answer(p, s);
+    if (s->begin) nh_pen_words(p, "No initial state was given. The program chose this one: %s.", s->begin);
     nh_stage *stage = p->ink->stage && !e ? nh_simulation_stage(s, run) : NULL;
     if (stage) p->ink->stage(p->to, stage);
     p->ink->links(p->to, !s->events       ? "motion|Motion|system|System|repeat|Repeat it"
