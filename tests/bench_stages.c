@@ -1,11 +1,11 @@
 /* bench_stages: what each row of the search (search/staged_search.h) finds that the others do not.
  *
- *     bench_stages FOLDER [stored|main|selections|leave|whole|all [SET]]     prints the page docs/stages.md
+ *     bench_stages FOLDER [stored|main|selections|rows|leave|whole|all [SET]]     prints the page docs/stages.md
  *
  * Every system of every set is analysed by a process of its own, on one thread, with all rows and with some left out; its counted work, its memory and,
  * as a last resort, its processor time are bounded.  Results are kept in FOLDER, a file per system, so that a run continues where it was stopped.  The second
- * word ends it early: `stored` runs nothing, `main` the first two selections, `selections` and `leave` all up to that table; `whole` also runs what need not be run (below).  With the third
- * word only one set is looked at.
+ * word ends it early: `stored` runs nothing, `main` the first two selections and each row, `selections` and `leave` all up to that table; `whole` also runs
+ * what need not be run (below).  With the third word only one set is looked at.
  *
  * Two runs are the same where the second leaves out, besides, only rows that found nothing in the first: then the second is not made. */
 #include <errno.h>
@@ -403,13 +403,13 @@ static void print_names(uint64_t mask)
 
 static void print_cell(const total *s)
 {
-    if (s->missing) printf(" - |");
+    if (s->missing || !s->systems) printf(" - |");
     else {
         printf(" %s%zu", s->lost ? "**" : "", s->lost);
         if (s->lost) printf("**");
         if (s->gained) printf(", %zu more", s->gained);
         if (s->pieces) printf(", %zu of a part", s->pieces);
-        if (s->unproved) printf(", %zu not proved", s->unproved);
+        if (s->unproved) printf(", %zu not proved in closed form", s->unproved);
         if (s->special) printf(", %zu for the values of the file only", s->special);
         if (s->failed) printf(", %zu without an answer", s->failed);
         printf(" |");
@@ -538,7 +538,7 @@ static void print_losses(const char *what, uint64_t mask)
         if (r->status) printf("no answer");
         else printf("%zu of %zu", r->independent, all->independent);
         if (!r->status && r->pieces != all->pieces) printf("; of a part %zu, not %zu", r->pieces, all->pieces);
-        if (!r->status && r->independent >= all->independent && r->proved < all->proved) printf("; %zu not proved", all->proved - r->proved);
+        if (!r->status && r->independent >= all->independent && r->proved < all->proved) printf("; %zu not proved in closed form", all->proved - r->proved);
         if (!r->status && is_longer(r, all)) printf("; %zu characters, not %zu", r->length, all->length);
         printf(" |");
         for (size_t k = 0; k < r->losts; k++) printf("%s `%.*s%s`", k ? "," : "", longest_shown, r->lost[k], strlen(r->lost[k]) > longest_shown ? " .." : "");
@@ -614,12 +614,13 @@ int main(int argc, char **argv)
     print_sets();
     bool first = !strcmp(until, "main");
     print_selections(first ? 2 : SIZE_MAX);
-    if (first || !strcmp(until, "selections")) return 0;
+    if (!strcmp(until, "selections")) return 0;
     print_leave_one_out();
     print_analyses();
     print_which();
-    if (!strcmp(until, "leave")) return 0;
+    if (!strcmp(until, "leave") || !strcmp(until, "rows")) return 0;
     puts("## The smallest selection\n");
+    if (stored_only) return puts("Not computed yet."), 0;
     print_elimination(true);
     print_elimination(false);
     return 0;
