@@ -1,11 +1,11 @@
 /* bench_stages: what each row of the search (search/staged_search.h) finds that the others do not.
  *
- *     bench_stages FOLDER [stored|main|selections|rows|leave|whole|all [SET]]     prints the page docs/stages.md
+ *     bench_stages FOLDER [stored|greedy|main|selections|rows|leave|whole|all [SET]]     prints the page docs/stages.md
  *
  * Every system of every set is analysed by a process of its own, on one thread, with all rows and with some left out; its counted work, its memory and,
  * as a last resort, its processor time are bounded.  Results are kept in FOLDER, a file per system, so that a run continues where it was stopped.  The second
- * word ends it early: `stored` runs nothing, `main` the first two selections and each row, `selections` and `leave` all up to that table; `whole` also runs
- * what need not be run (below).  With the third word only one set is looked at.
+ * word ends it early: `stored` runs nothing, `greedy` for the last table only, `main` the first two selections and each row, `selections` and `leave` all
+ * up to that table; `whole` also runs what need not be run (below).  With the third word only one set is looked at.
  *
  * Two runs are the same where the second leaves out, besides, only rows that found nothing in the first: then the second is not made. */
 #include <errno.h>
@@ -605,7 +605,8 @@ int main(int argc, char **argv)
     const char *folder = argv[1], *until = argc > 2 ? argv[2] : "";
     if (mkdir(folder, 0777) && errno != EEXIST) return 2;
     while (nh_staged_search_row(rows)) rows++;
-    stored_only = !strcmp(until, "stored");
+    bool greedy = !strcmp(until, "greedy");
+    stored_only = greedy || !strcmp(until, "stored");
     whole = !strcmp(until, "whole");
     only = argc > 3 ? argv[3] : NULL;
     make_sets(folder);
@@ -618,9 +619,10 @@ int main(int argc, char **argv)
     print_leave_one_out();
     print_analyses();
     print_which();
-    if (!strcmp(until, "leave") || !strcmp(until, "rows")) return 0;
+    if (!strcmp(until, "leave") || !strcmp(until, "rows") || first) return 0;
     puts("## The smallest selection\n");
-    if (stored_only) return puts("Not computed yet."), 0;
+    if (stored_only && !greedy) return puts("Not computed yet."), 0;
+    stored_only = false;
     print_elimination(true);
     print_elimination(false);
     return 0;
