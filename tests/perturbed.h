@@ -59,7 +59,7 @@ static size_t survivors(const nh_analysis *r, nh_ex term, nh_ex *out)
     return n;
 }
 
-static perturbed perturbed_copy(const char *folder, const char *name, size_t which, uint64_t seed, const nh_options *wanted)
+static inline perturbed perturbed_copy(const char *folder, const char *name, size_t which, uint64_t seed, const nh_options *wanted)
 {
     perturbed p = {0};
     char from[4096], path[SCRATCH];

@@ -400,7 +400,7 @@ static void random_system_write(random_system *r, const char *name, FILE *out)
 }
 
 /* What is built in, in words (static). */
-static const char *random_system_note(const random_system *r)
+static inline const char *random_system_note(const random_system *r)
 {
     static char text[120];
     snprintf(text, sizeof text, "%zu coordinates, %zu %s%s%s%s%s%s%s", r->m, r->k, constraint_names[r->kind], r->energy ? ", energy" : "", r->rotation ? ", rotation" : "",

@@ -345,6 +345,7 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
 {
     double start = nh_clock(), clock = start;
     r->options = q->options;
+    r->left_out = q->left_out;
     r->command = q->command ? nh_arena_strdup(r->arena, q->command) : NULL;
     r->system_path = nh_arena_strdup(r->arena, q->system_path);
     if (q->system_words) r->system_words = nh_arena_strdup(r->arena, q->system_words);

@@ -17,6 +17,7 @@ typedef struct {
     double accuracy;             /* accuracy of motions; 0: options.tolerance, unchecked */
     bool equations;              /* writes the geometry out */
     bool no_figures;             /* skips the figures of the analysis file: no output shows them */
+    uint64_t left_out;           /* rows of the search (search/staged_search.h) that a developer leaves out */
     bool model_only;             /* does not search: no output needs currents */
     /* these options take precedence over the analysis file's values */
     bool seed_given, samples_given, tolerance_given, until_given;

@@ -208,6 +208,8 @@ struct nh_analysis {
     size_t specials;
     nh_special *special;
     size_t count, capacity, independent, local_maximum;
+    /* rows of the search (staged_search.h), bit i for row i: left out by a developer; those that found something */
+    uint64_t left_out, used;
     size_t open;              /* null vectors that may be true, but have no certificate */
     const char *letter;       /* first letters of the names of currents, as Phi in Phi1; see nh_currents_name */
     nh_current *found;

@@ -135,6 +135,7 @@ void nh_sides_search(nh_stage_solver *solver, nh_whole_search *search)
         nh_budget_begin(r->options.work);
         take_all(solver, &x, side);
         nh_budget_begin(INFINITY);
+        r->used |= side->used;
     }
     nh_other_system_close(side);
 }

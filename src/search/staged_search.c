@@ -102,8 +102,12 @@ static void how_it_ended(nh_analysis *r, bool spent)
                      r->options.work, 10 * r->options.work);
 }
 
+/* For these only the equations on one side of kinks are left. */
+static void sides(nh_stage_solver *x) { nh_sides_search(x, nh_staged_search_run); }
+
 /* A stage of `stages`, or a search of its own. */
 typedef struct {
+    const char *name;                     /* for `left_out`, and docs/stages.md */
     void (*run)(nh_stage_solver *solver); /* NULL: the stage */
     nh_stage_name stage;
 } step;
@@ -111,38 +115,72 @@ typedef struct {
 /* What is found by small linear problems first; what they can hide from each other, and what needs many columns,
    later.  From the third step on the count may make a stage superfluous. */
 static const step steps[] = {
-    {.run = nh_linear_fields_search},        /* before stages whose coefficients would be masses and lengths */
-    {.stage = NH_STAGE_WORDS},               /* the energy, momenta, velocities and positions by themselves */
-    {.stage = NH_STAGE_DRIVE},               /* with what a force of t adds to them */
-    {.stage = NH_STAGE_RATIONAL},            /* velocities in denominators */
-    {.run = stages_of_many},                 /* and angular momenta, where everything else is too large */
-    {.run = nh_linear_motion_search},        /* before the pencil, which has the rates of linear motion by rounding */
-    {.run = nh_linear_motion_functions},     /* the same in coordinates that hide it */
-    {.run = nh_rates_search},                /* before larger stages, whose null vectors are less short */
-    {.stage = NH_STAGE_WORDS_POSITIONS},     /* times t and positions */
-    {.stage = NH_STAGE_MOMENTA},             /* times harmonics and functions, whatever L is */
-    {.run = nh_isometries_search},           /* the same, whatever the coordinates */
-    {.run = function_stages},                /* times one function */
-    {.run = nh_velocity_turn_search},        /* two velocities and their energy */
-    {.run = nh_slopes_search},               /* two velocities by themselves */
-    {.run = nh_quadratures_complete},        /* where one integral is missing, or a linear one */
-    {.run = nh_series_stages},               /* no closed form, of one coordinate */
-    {.stage = NH_STAGE_DEGREE_2},            /* from here on of higher degree: columns by the hundred */
-    {.stage = NH_STAGE_WEIGHTS},             /* Runge and Lenz */
-    {.stage = NH_STAGE_WEIGHT_4},            /* Kovalevskaya, Toda, Calogero */
-    {.stage = NH_STAGE_SEPARATION},          /* Euler, Liouville */
-    {.stage = NH_STAGE_TIME},                /* Ermakov, Lewis */
-    {.run = nh_stage_solver_series_in_time}, /* no closed form, of t */
-    {.stage = NH_STAGE_HALF_ANGLES},         /* parabolic coordinates seen from polar ones */
-    {.run = nh_stage_solver_series_in_each}, /* no closed form, of one coordinate each */
+    {"linear fields", nh_linear_fields_search, 0}, /* before stages whose coefficients would be masses and lengths */
+    {"words", .stage = NH_STAGE_WORDS},            /* the energy, momenta, velocities and positions by themselves */
+    {"driven words", .stage = NH_STAGE_DRIVE},     /* with what a force of t adds to them */
+    {"rational", .stage = NH_STAGE_RATIONAL},      /* velocities in denominators */
+    {"many bodies", stages_of_many, 0},            /* and angular momenta, where everything else is too large */
+    /* before the pencil, which has the rates of linear motion by rounding */
+    {"linear motion", nh_linear_motion_search, 0},
+    {"hidden linear motion", nh_linear_motion_functions, 0}, /* the same in coordinates that hide it */
+    {"rates", nh_rates_search, 0}, /* before larger stages, whose null vectors are less short */
+    {"words times positions", .stage = NH_STAGE_WORDS_POSITIONS}, /* and times t */
+    {"momenta times functions", .stage = NH_STAGE_MOMENTA},       /* and harmonics, whatever L is */
+    {"isometries", nh_isometries_search, 0},                      /* the same, whatever the coordinates */
+    {"one function", function_stages, 0},                         /* times one function */
+    {"turning velocities", nh_velocity_turn_search, 0},           /* two velocities and their energy */
+    {"slopes", nh_slopes_search, 0},                              /* two velocities by themselves */
+    {"last quadrature", nh_quadratures_complete, 0},              /* where one integral is missing, or a linear one */
+    {"series of one coordinate", nh_series_stages, 0},            /* no closed form */
+    {"degree 2", .stage = NH_STAGE_DEGREE_2},                     /* from here on columns by the hundred */
+    {"weights", .stage = NH_STAGE_WEIGHTS},                       /* Runge and Lenz */
+    {"weight 4", .stage = NH_STAGE_WEIGHT_4},                     /* Kovalevskaya, Toda, Calogero */
+    {"separation", .stage = NH_STAGE_SEPARATION},                 /* Euler, Liouville */
+    {"degree 2 in time", .stage = NH_STAGE_TIME},                 /* Ermakov, Lewis */
+    {"series in time", nh_stage_solver_series_in_time, 0},        /* no closed form */
+    {"half angles", .stage = NH_STAGE_HALF_ANGLES},               /* parabolic coordinates seen from polar ones */
+    {"series of each coordinate", nh_stage_solver_series_in_each, 0}, /* no closed form, of one coordinate each */
 };
 
-static void run_step(nh_stage_solver *x, const step *s)
+/* After them, with all the work that is needed. */
+static const step last_steps[] = {
+    {"quadratures", nh_quadratures_search, 0},
+    {"frames", nh_frames_search, 0},
+    {"levels", nh_integral_levels_search, 0},
+    {"sides", sides, 0},
+};
+
+enum { STEPS = sizeof steps / sizeof *steps, LAST_STEPS = sizeof last_steps / sizeof *last_steps };
+
+const char *nh_staged_search_row(size_t i)
+{
+    return i < STEPS ? steps[i].name : i < STEPS + LAST_STEPS ? last_steps[i - STEPS].name : NULL;
+}
+
+/* What a row may change: a row that changes nothing can be left out. */
+typedef struct {
+    size_t count, pieces, independent, forms;
+    bool postponed;
+} outcome;
+
+static outcome outcome_of(const nh_stage_solver *x)
+{
+    return (outcome){x->r->count, x->r->pieces, x->r->independent, x->forms, x->r->postponed};
+}
+
+static void run_step(nh_stage_solver *x, const step *s, size_t row)
 {
     nh_stage stage;
+    nh_analysis *r = x->r;
+    outcome before = outcome_of(x);
+    if (r->left_out >> row & 1) return;
     if (s->run) s->run(x);
-    else if (nh_stage_at(x->r->arena, x->r->model, &x->words, s->stage, &stage))
+    else if (nh_stage_at(r->arena, r->model, &x->words, s->stage, &stage))
         nh_stage_solver_stage(x, stage.name, stage.families, stage.family);
+    outcome after = outcome_of(x);
+    bool same = before.count == after.count && before.pieces == after.pieces && before.forms == after.forms &&
+                before.independent == after.independent && before.postponed == after.postponed;
+    if (!same) r->used |= UINT64_C(1) << row;
 }
 
 bool nh_staged_search_run(nh_analysis *r, nh_error *error)
@@ -155,17 +193,15 @@ bool nh_staged_search_run(nh_analysis *r, nh_error *error)
     nh_integrals_find(&x);
     single_stages(&x);
     if (!nh_stage_solver_done(&x)) force_potential(&x);
-    for (size_t i = 0; i < sizeof steps / sizeof *steps && !nh_stage_solver_done(&x); i++) {
+    for (size_t i = 0; i < STEPS && !nh_stage_solver_done(&x); i++) {
         x.counted.on = i > 1;
-        x.postpones = i + 1 == sizeof steps / sizeof *steps && r->options.construct > 0;
-        run_step(&x, &steps[i]);
+        x.postpones = i + 1 == STEPS && r->options.construct > 0;
+        run_step(&x, &steps[i], i);
     }
-    nh_quadratures_search(&x);
+    run_step(&x, &last_steps[0], STEPS);
     bool spent = nh_budget_spent();
     nh_budget_begin(INFINITY);
-    if (!nh_stage_solver_done(&x)) nh_frames_search(&x);
-    if (!nh_stage_solver_done(&x)) nh_integral_levels_search(&x);
-    if (!nh_stage_solver_done(&x)) nh_sides_search(&x, nh_staged_search_run);
+    for (size_t i = 1; i < LAST_STEPS && !nh_stage_solver_done(&x); i++) run_step(&x, &last_steps[i], STEPS + i);
     nh_currents_finish(x.bench);
     how_it_ended(r, spent);
     nh_stage_solver_end(&x);

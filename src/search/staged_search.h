@@ -12,4 +12,7 @@
    largest). */
 bool nh_staged_search_run(nh_analysis *result, nh_error *error);
 
+/* The name of row i of the search, of which result->left_out leaves out some; NULL from the last one on. */
+const char *nh_staged_search_row(size_t i);
+
 #endif
