@@ -203,8 +203,8 @@ Test(system, known)
 Test(system, the_least_that_is_a_system)
 {
     nh_system *s = system_of("coordinates: [x]\nlagrangian: x'^2/2\n");
-    cr_expect_str_eq(s->name, "system");
-    cr_expect_str_eq(s->title, "system", "without a title, the name");
+    cr_expect_str_eq(s->name, "test");
+    cr_expect_str_eq(s->title, "test", "without a title, the name");
     cr_expect_str_eq(s->source, "");
     cr_expect_eq(s->parameters + s->constraints + s->dependents + s->quasi + s->definitions + s->intervals + s->currents + s->not_conserved, 0u);
     cr_expect_not(s->has_forces);

@@ -43,6 +43,8 @@ static bool write_directly(const char *path, const char *text, size_t length, nh
     return reason ? failed(error, path, "written", reason) : true;
 }
 
+int nh_output_remove(const char *path) { return unlink(path) && errno != ENOENT && unlink(path) ? errno : 0; }
+
 static void forget(nh_leaving *leaving) { unlink(((nh_output_file *)leaving)->temporary); }
 
 /* A new file beside `path`, with the permissions that the user's mask leaves; -1: none. */
@@ -92,7 +94,7 @@ static bool write_beside(const char *path, const char *text, size_t length, nh_o
     if (!reason) return true;
     nh_leave_hold();
     nh_leave_remove(&out->leaving);
-    unlink(out->temporary);
+    nh_output_remove(out->temporary);
     nh_leave_release();
     return failed(error, path, "written", reason);
 }
@@ -186,9 +188,6 @@ static void unlock(nh_output_set *set)
     set->folders = 0;
 }
 
-/* An error of the disk may pass. */
-static int remove_file(const char *path) { return unlink(path) && errno != ENOENT && unlink(path) ? errno : 0; }
-
 static void name_aside(const nh_output_file *file, char *name)
 {
     snprintf(name, NH_OUTPUT_LONGEST + 1, "%s~", file->temporary);
@@ -212,9 +211,9 @@ static void take_back(nh_output_file *file)
 {
     char aside[NH_OUTPUT_LONGEST + 1];
     name_aside(file, aside);
-    if (file->kept && (!rename(aside, file->path) || !rename(aside, file->path))) remove_file(aside);
-    else if (!file->kept && file->placed) remove_file(file->path);
-    if (!file->placed) remove_file(file->temporary);
+    if (file->kept && (!rename(aside, file->path) || !rename(aside, file->path))) nh_output_remove(aside);
+    else if (!file->kept && file->placed) nh_output_remove(file->path);
+    if (!file->placed) nh_output_remove(file->temporary);
 }
 
 /* All of them, and on the disk; *failed_at: the first that could not.  Returns the reason. */
@@ -243,11 +242,11 @@ bool nh_output_end(nh_output_set *set, bool keep, nh_error *error)
         nh_leave_remove(&file->leaving);
         name_aside(file, aside);
         if (!good) take_back(file);
-        else if (file->kept) remove_file(aside);
+        else if (file->kept) nh_output_remove(aside);
     }
     for (nh_output_file *file; (file = set->dropped); nh_free(file)) {
         set->dropped = file->next;
-        if (good && (reason = remove_file(file->path))) keep = failed(error, file->path, "removed", reason);
+        if (good && (reason = nh_output_remove(file->path))) keep = failed(error, file->path, "removed", reason);
     }
     unlock(set);
     nh_leave_release();

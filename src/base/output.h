@@ -40,6 +40,9 @@ void nh_output_drop(nh_output_set *set, const char *path);
  * not take their places, or when a file could not be removed. */
 bool nh_output_end(nh_output_set *set, bool keep, nh_error *error);
 
+/* Removes a file, and tries twice, because an error of the disk may pass.  Returns 0, or the errno. */
+int nh_output_remove(const char *path);
+
 /* Can `path` be written, so far as this can be known before there is anything to write? */
 bool nh_output_possible(const char *path, nh_error *error);
 

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/output.h"
 #include "cli/cli.h"
 #include "library/catalogue.h"
 
@@ -76,7 +77,7 @@ int nh_cli_new(nh_cli *cli, nh_error *error)
     if (!good) {
         nh_fail(error, NH_NUMERIC, path, "could not be written: %s", strerror(errno));
         nh_error_hint(error, "the incomplete file was removed; free some space, or use another folder");
-        unlink(path);
+        nh_output_remove(path);
         return NH_NUMERIC;
     }
     if (!cli->quiet) tell(cli, name, path);

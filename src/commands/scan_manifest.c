@@ -89,7 +89,7 @@ static bool write_first(const char *path, const char *text, nh_error *error)
     if (!nh_output_write(beside, text, strlen(text), error)) return false;
     bool good = !link(beside, path) || errno == EEXIST;
     int reason = errno;
-    unlink(beside);
+    nh_output_remove(beside);
     return good || nh_fail(error, NH_NUMERIC, path, "could not be written: %s", strerror(reason));
 }
 
