@@ -543,3 +543,21 @@ Test(ordinary_input, an_input_begins_at_zero_and_comes_back_as_command)
     finished_clear(&found);
     place_clear(&p);
 }
+
+/* A radius begins at 1, where r = 0 is a pole of the equations and the file gives no interval, however wide; a length without a pole is rounded only. */
+Test(ordinary_input, a_radius_begins_at_one)
+{
+    place p = place_make();
+    write_here(&p, "polar.yaml", "coordinates: r, a\nL: r'^2/2 + r^2*a'^2/2 - r^2\n");
+    write_here(&p, "wide.yaml", "coordinates: r, a\nL: r'^2/2 + r^2*a'^2/2 - r^2\ndomain: {r: [-5, 5]}\n");
+    write_here(&p, "plain.yaml", "coordinates: r, a\nL: r'^2/2 + a'^2/2 - r^2\n");
+    static const struct { const char *file; bool one; } cases[] = {{"polar", true}, {"wide", false}, {"plain", false}};
+    for (size_t i = 0; i < 3; i++) {
+        char line[100];
+        snprintf(line, sizeof line, "simulate %s.yaml --until 1 --step 1", cases[i].file);
+        finished found = run_expecting(&p, line, 0);
+        cr_expect_eq(strstr(found.err, "\"r=1, ") != NULL, cases[i].one, "%s: %s", cases[i].file, found.err);
+        finished_clear(&found);
+    }
+    place_clear(&p);
+}

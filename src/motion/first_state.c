@@ -6,7 +6,6 @@
 
 #include "base/linalg.h"
 #include "motion/assembly.h"
-#include "system/domain.h"
 
 static bool depends_on_time(const nh_model *o)
 {
@@ -54,9 +53,9 @@ static void leave_poles(const nh_model *o, double *z)
     x.work = nh_tape_work_create(x.tape);
     for (size_t i = 1; i <= o->m && !equations; i++) {
         const nh_coordinate *c = &o->system->coordinate[i - 1];
-        double before = z[i], low, high;
-        nh_domain_range(o->system, c->q, &low, &high);
-        bool own = low > -1 || high < 1;
+        double before = z[i];
+        bool own = false;
+        for (size_t k = 0; k < o->system->intervals; k++) own |= o->system->interval[k].symbol == c->q;
         if (c->type == NH_ANGLE || own || finite_at(&x, z, i, 0) || !finite_at(&x, z, i, 1)) z[i] = before;
     }
     nh_free(x.a);
