@@ -16,6 +16,7 @@
  * The caller owns a result, which remains valid without its problem and context; a const char * lives as long as the
  * object that gave it.  An nh_error may be NULL, and so may what is freed.  Threads with separate contexts are
  * independent; one thread at a time may use a context's objects.  Angles: radians, all else: as in the system file. */
+/* clang-format off */
 #ifndef NHSYM_H
 #define NHSYM_H
 #include <stdbool.h>
@@ -51,7 +52,7 @@ typedef struct {
 NH_API void nh_error_clear(nh_error *error);
 /* The whole message, several lines without a final newline, into `out` (always terminated). */
 NH_API void nh_error_format(const nh_error *error, char *out, size_t size);
-NH_API const char *nh_version_text(void); /* "0.1.0" */
+NH_API const char *nh_version_text(void); /* "0.2.0" */
 
 /* ---- a context: the state of one thread's computations ---- */
 typedef struct nh_context nh_context;

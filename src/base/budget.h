@@ -10,13 +10,13 @@
 #include <stdbool.h>
 
 /* name, units, of what; a unit takes about a nanosecond on a machine of 2026 */
-#define NH_WORK_TABLE(X)                                                                        \
-    X(DENSE,    0.2, "a multiplication and an addition of dense linear algebra, in doubles")    \
-    X(VALUE,    3,   "an instruction of a straight-line program at one point")                  \
-    X(NODE,     250, "an expression that was made, or found to be there already")               \
-    X(TERM,     4,   "a product of two terms of exact polynomials, per word of the coefficients") \
-    X(BALL,     1,   "a product of two words in ball arithmetic")                               \
-    X(RESIDUE,  6,   "a multiplication modulo a prime")
+#define NH_WORK_TABLE(X)                                                                                               \
+    X(DENSE, 0.2, "a multiplication and an addition of dense linear algebra, in doubles")                              \
+    X(VALUE, 3, "an instruction of a straight-line program at one point")                                              \
+    X(NODE, 250, "an expression that was made, or found to be there already")                                          \
+    X(TERM, 4, "a product of two terms of exact polynomials, per word of the coefficients")                            \
+    X(BALL, 1, "a product of two words in ball arithmetic")                                                            \
+    X(RESIDUE, 6, "a multiplication modulo a prime")
 
 typedef enum {
 #define X(name, units, doc) NH_WORK_##name,

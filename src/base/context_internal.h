@@ -23,23 +23,23 @@ void nh_known_files_free(nh_known_file *first);
 struct nh_context {
     /* base/budget.c */
     atomic_uint_fast64_t used; /* whole units: a sum of integers does not depend on the order in which threads add */
-    double               most; /* units; written between computations, read by all of their threads */
+    double most;               /* units; written between computations, read by all of their threads */
     /* base/progress.c */
     nh_progress_handler *handler;
-    void                *handler_context;
-    pthread_mutex_t      saying_lock;
-    char                 saying[nh_context_longest_saying];
-    atomic_bool          interrupted, reached;
+    void *handler_context;
+    pthread_mutex_t saying_lock;
+    char saying[nh_context_longest_saying];
+    atomic_bool interrupted, reached;
     /* seconds of the monotonic clock; written between computations, read by all of their threads */
-    double               limit, limit_seconds, deadline;
-    nh_clock_limit       time_limit;
-    double               most_memory; /* bytes, 0: no limit; written and read likewise */
-    _Atomic double       next_look;   /* when the memory is measured next, on the same clock */
-    atomic_bool          filled;      /* the limit of memory ended the computation */
+    double limit, limit_seconds, deadline;
+    nh_clock_limit time_limit;
+    double most_memory;       /* bytes, 0: no limit; written and read likewise */
+    _Atomic double next_look; /* when the memory is measured next, on the same clock */
+    atomic_bool filled;       /* the limit of memory ended the computation */
     /* base/files.c */
     pthread_mutex_t files_lock;
-    bool            files_kept;
-    nh_known_file  *file;
+    bool files_kept;
+    nh_known_file *file;
     /* base/parallel.c */
     atomic_size_t left_alone; /* jobs */
 };

@@ -9,32 +9,25 @@
 
 void nh_error_clear(nh_error *error)
 {
-    if (error)
-        memset(error, 0, sizeof *error);
+    if (error) memset(error, 0, sizeof *error);
 }
 
 /* snprintf cuts at bytes: drop a UTF-8 character that was cut in two at the end of `text`. */
 static void mend_tail(char *text)
 {
     size_t length = strlen(text), begin = length;
-    while (begin > 0 && ((unsigned char)text[begin - 1] & 0xC0) == 0x80)
-        begin--;
-    if (begin == 0)
-        return;
+    while (begin > 0 && ((unsigned char)text[begin - 1] & 0xC0) == 0x80) begin--;
+    if (begin == 0) return;
     unsigned char lead = (unsigned char)text[begin - 1];
     size_t wanted = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC0 ? 1 : 0;
-    if (length - begin < wanted)
-        text[begin - 1] = '\0';
+    if (length - begin < wanted) text[begin - 1] = '\0';
 }
 
-__attribute__((format(printf, 3, 0)))
-static void fill(char *out, size_t size, const char *format, va_list arguments)
+__attribute__((format(printf, 3, 0))) static void fill(char *out, size_t size, const char *format, va_list arguments)
 {
     int needed = vsnprintf(out, size, format, arguments);
-    if (needed < 0)
-        out[0] = '\0';
-    else if ((size_t)needed >= size)
-        mend_tail(out);
+    if (needed < 0) out[0] = '\0';
+    else if ((size_t)needed >= size) mend_tail(out);
 }
 
 /* A place that is too long loses its beginning: its end holds the line and the column. */
@@ -47,15 +40,13 @@ static void fill_where(char *out, size_t size, const char *where)
         return;
     }
     const char *tail = where + length - (size - sizeof dots);
-    while (((unsigned char)*tail & 0xC0) == 0x80)
-        tail++;
+    while (((unsigned char)*tail & 0xC0) == 0x80) tail++;
     snprintf(out, size, "%s%s", dots, tail);
 }
 
 bool nh_fail(nh_error *error, nh_code code, const char *where, const char *format, ...)
 {
-    if (!error || error->code != NH_OK)
-        return false;
+    if (!error || error->code != NH_OK) return false;
     va_list arguments;
     va_start(arguments, format);
     fill(error->what, sizeof error->what, format, arguments);
@@ -67,8 +58,7 @@ bool nh_fail(nh_error *error, nh_code code, const char *where, const char *forma
 
 bool nh_error_hint(nh_error *error, const char *format, ...)
 {
-    if (!error || error->hint[0])
-        return false;
+    if (!error || error->hint[0]) return false;
     va_list arguments;
     va_start(arguments, format);
     fill(error->hint, sizeof error->hint, format, arguments);
@@ -100,12 +90,9 @@ bool nh_error_hint_number(nh_error *error, const char *written)
 
 void nh_error_format(const nh_error *error, char *out, size_t size)
 {
-    if (size == 0)
-        return;
+    if (size == 0) return;
     int needed = snprintf(out, size, "%s%s%s%s%s%s%s", error->where, error->where[0] ? ": " : "", error->what,
                           error->excerpt[0] ? "\n" : "", error->excerpt, error->hint[0] ? "\nhint: " : "", error->hint);
-    if (needed < 0)
-        out[0] = '\0';
-    else if ((size_t)needed >= size)
-        mend_tail(out);
+    if (needed < 0) out[0] = '\0';
+    else if ((size_t)needed >= size) mend_tail(out);
 }

@@ -139,7 +139,7 @@ size_t nh_json_names(const nh_json *object, size_t most, const char **name)
 {
     size_t n = 0;
     const cJSON *item;
-    cJSON_ArrayForEach(item, object) {
+    cJSON_ArrayForEach (item, object) {
         if (n < most && item->string) name[n++] = item->string;
     }
     return n;

@@ -4,7 +4,7 @@
 
 /* One temporary thing: embed it in the record of the file, folder or process. */
 typedef struct nh_leaving {
-    long process; /* that made it: a copy of the process leaves it alone */
+    long process;                             /* that made it: a copy of the process leaves it alone */
     void (*undo)(struct nh_leaving *leaving); /* called from any thread; works without memory */
     struct nh_leaving *next, **link;
 } nh_leaving;

@@ -18,13 +18,15 @@
 extern void openblas_set_num_threads(int count) __attribute__((weak));
 
 enum {
-    PANEL = 64,      /* columns factorised at a time, and */
-    LEAF = 4,        /* those of them left to LAPACK: the fastest of several (tests/bench_nullspace.c) */
+    PANEL = 64,          /* columns factorised at a time, and */
+    LEAF = 4,            /* those of them left to LAPACK: the fastest of several (tests/bench_nullspace.c) */
     SMALLEST_BLOCK = 64, /* rows; below it the calls cost more than the flops */
-    ASIDE = 100,     /* columns, from which on the QR of a full block takes longer than to start a thread for it */
-    PATIENT = 400,   /* columns: decompositions of fewer are not interrupted */
-    SMALL = 32,      /* equations, as motions solve them at each step */
-    SVD = 12, PIVOTED = 3, EIGEN = 20 /* times m n min(m, n) multiplications */
+    ASIDE = 100,         /* columns, from which on the QR of a full block takes longer than to start a thread for it */
+    PATIENT = 400,       /* columns: decompositions of fewer are not interrupted */
+    SMALL = 32,          /* equations, as motions solve them at each step */
+    SVD = 12,
+    PIVOTED = 3,
+    EIGEN = 20 /* times m n min(m, n) multiplications */
 };
 
 /* bytes of the buffer that OpenBLAS maps for every thread that calls it */
@@ -35,8 +37,7 @@ static const double CALL = 350, ROW = 50, FLOP = 0.4;
 
 void nh_linalg_threads(int count)
 {
-    if (openblas_set_num_threads)
-        openblas_set_num_threads(count);
+    if (openblas_set_num_threads) openblas_set_num_threads(count);
 }
 
 /* OpenBLAS tries for ever to map its buffer where the address space has no room.  So before the first call of a thread
@@ -44,42 +45,27 @@ void nh_linalg_threads(int count)
 static void look_for_room(void)
 {
     static _Thread_local bool found;
-    if (found || !openblas_set_num_threads)
-        return;
+    if (found || !openblas_set_num_threads) return;
     void *room = mmap(NULL, BUFFER, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (room == MAP_FAILED)
-        nh_memory_ended(BUFFER);
+    if (room == MAP_FAILED) nh_memory_ended(BUFFER);
     munmap(room, BUFFER);
     found = true;
 }
 
-static size_t smaller(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
+static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
 
-static size_t larger(size_t a, size_t b)
-{
-    return a > b ? a : b;
-}
+static size_t larger(size_t a, size_t b) { return a > b ? a : b; }
 
 /* LAPACK wants every leading dimension to be at least 1, also for empty matrices. */
-static lapack_int leading(size_t rows)
-{
-    return (lapack_int)larger(rows, 1);
-}
+static lapack_int leading(size_t rows) { return (lapack_int)larger(rows, 1); }
 
-static double product(size_t a, size_t b, size_t c)
-{
-    return (double)a * (double)b * (double)c;
-}
+static double product(size_t a, size_t b, size_t c) { return (double)a * (double)b * (double)c; }
 
 /* x - x is 0 for finite x and NaN otherwise. */
 bool nh_all_finite(size_t count, const double *x)
 {
     double sum = 0;
-    for (size_t i = 0; i < count; i++)
-        sum += x[i] - x[i];
+    for (size_t i = 0; i < count; i++) sum += x[i] - x[i];
     return sum == 0;
 }
 
@@ -127,8 +113,7 @@ void nh_qr_reset(nh_qr *qr)
 
 void nh_qr_free(nh_qr *qr)
 {
-    if (!qr)
-        return;
+    if (!qr) return;
     await(qr);
     if (qr->full != qr->block) nh_free(qr->full);
     nh_free(qr->r);
@@ -149,13 +134,11 @@ static void reflect(nh_qr *qr, size_t first, size_t count, const double *t, size
                ld = (lapack_int)qr->capacity;
     const double *v = qr->full + first * qr->capacity;
     double *b = qr->full + right * qr->capacity, *r = qr->r + first + right * n, *w = qr->work;
-    for (size_t j = 0; j < columns; j++)
-        memcpy(w + j * count, r + j * n, count * sizeof *w);
+    for (size_t j = 0; j < columns; j++) memcpy(w + j * count, r + j * n, count * sizeof *w);
     cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, k, c, m, 1.0, v, ld, b, ld, 1.0, w, k);
     cblas_dtrmm(CblasColMajor, CblasLeft, CblasUpper, CblasTrans, CblasNonUnit, k, c, 1.0, t, PANEL, w, k);
     for (size_t j = 0; j < columns; j++)
-        for (size_t i = 0; i < count; i++)
-            r[i + j * n] -= w[i + j * count];
+        for (size_t i = 0; i < count; i++) r[i + j * n] -= w[i + j * count];
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, c, k, -1.0, v, ld, w, k, 1.0, b, ld);
 }
 
@@ -191,8 +174,7 @@ static void absorb(void *context)
     for (size_t first = 0; first < qr->columns; first += PANEL) {
         size_t count = smaller(PANEL, qr->columns - first), right = first + count;
         factorise(qr, first, count, qr->t);
-        if (right < qr->columns)
-            reflect(qr, first, count, qr->t, right, qr->columns - right);
+        if (right < qr->columns) reflect(qr, first, count, qr->t, right, qr->columns - right);
     }
 }
 
@@ -200,8 +182,7 @@ static void absorb(void *context)
 static void flush(nh_qr *qr)
 {
     await(qr);
-    if (qr->waiting == 0)
-        return;
+    if (qr->waiting == 0) return;
     double *next = qr->full;
     qr->full = qr->block;
     qr->filled = qr->waiting;
@@ -223,8 +204,7 @@ void nh_qr_add(nh_qr *qr, size_t rows, double *block, size_t ld)
         qr->waiting += take;
         qr->rows += take;
         done += take;
-        if (qr->waiting == qr->capacity)
-            flush(qr);
+        if (qr->waiting == qr->capacity) flush(qr);
     }
 }
 
@@ -233,14 +213,10 @@ void nh_qr_triangle(nh_qr *qr, double *r)
     flush(qr);
     await(qr);
     memset(r, 0, qr->columns * qr->columns * sizeof *r);
-    for (size_t j = 0; j < qr->columns; j++)
-        memcpy(r + j * qr->columns, qr->r + j * qr->columns, (j + 1) * sizeof *r);
+    for (size_t j = 0; j < qr->columns; j++) memcpy(r + j * qr->columns, qr->r + j * qr->columns, (j + 1) * sizeof *r);
 }
 
-size_t nh_qr_rows(const nh_qr *qr)
-{
-    return qr->rows;
-}
+size_t nh_qr_rows(const nh_qr *qr) { return qr->rows; }
 
 /* ---- decompositions ---- */
 
@@ -276,8 +252,7 @@ static void give(size_t count, const double *from, double *to)
 /* Did LAPACK succeed?  It reports missing memory by a code of its own. */
 static bool worked(lapack_int info)
 {
-    if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR)
-        nh_memory_ended(0);
+    if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR) nh_memory_ended(0);
     return info == 0;
 }
 
@@ -293,8 +268,7 @@ static void compute_svd(void *context)
     if (d->slow)
         d->ok = worked(LAPACKE_dgesvd(LAPACK_COL_MAJOR, job, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt,
                                       superdiagonal));
-    else
-        d->ok = worked(LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt));
+    else d->ok = worked(LAPACKE_dgesdd(LAPACK_COL_MAJOR, job, rows, columns, d->a, ld, d->s, d->u, ld, d->vt, ldvt));
     nh_free(superdiagonal);
 }
 
@@ -302,8 +276,7 @@ static void compute_svd(void *context)
  * caller. */
 static bool run(void (*compute)(void *), decomposition *d)
 {
-    if (smaller(d->m, d->n) >= PATIENT)
-        return nh_interruptible(compute, decomposition_free, d);
+    if (smaller(d->m, d->n) >= PATIENT) return nh_interruptible(compute, decomposition_free, d);
     compute(d);
     return true;
 }
@@ -312,8 +285,7 @@ bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
 {
     size_t k = smaller(m, n);
     bool ok = k == 0, sides = u || vt; /* LAPACK computes both or none */
-    if (!nh_all_finite(m * n, a))
-        return false;
+    if (!nh_all_finite(m * n, a)) return false;
     nh_work_add(NH_WORK_DENSE, SVD * product(m, n, k));
     for (int slow = 0; slow < 2 && !ok; slow++) {
         decomposition *d = nh_alloc(sizeof *d);
@@ -324,8 +296,7 @@ bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
                              .u = sides ? kept(m * k, NULL) : NULL,
                              .vt = sides ? kept(k * n, NULL) : NULL,
                              .slow = slow};
-        if (!run(compute_svd, d))
-            return false;
+        if (!run(compute_svd, d)) return false;
         give(k, d->s, s);
         give(m * k, d->u, u);
         give(k * n, d->vt, vt);
@@ -337,10 +308,8 @@ bool nh_svd(size_t m, size_t n, double *a, double *s, double *u, double *vt)
 
 bool nh_eigen(size_t n, double *a, double *re, double *im, double *v)
 {
-    if (n == 0)
-        return true;
-    if (!nh_all_finite(n * n, a))
-        return false;
+    if (n == 0) return true;
+    if (!nh_all_finite(n * n, a)) return false;
     nh_work_add(NH_WORK_DENSE, EIGEN * product(n, n, n));
     lapack_int size = (lapack_int)n;
     look_for_room();
@@ -351,12 +320,9 @@ bool nh_eigen(size_t n, double *a, double *re, double *im, double *v)
 
 bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
 {
-    if (rcond)
-        *rcond = n == 0;
-    if (n == 0)
-        return true;
-    if (!nh_all_finite(n * n, a) || !nh_all_finite(n * nrhs, b))
-        return false;
+    if (rcond) *rcond = n == 0;
+    if (n == 0) return true;
+    if (!nh_all_finite(n * n, a) || !nh_all_finite(n * nrhs, b)) return false;
     look_for_room();
     nh_work_add(NH_WORK_DENSE, product(n, n, n + nrhs));
     nh_effort_add(CALL + ROW * (double)n + FLOP * product(n, n, n + nrhs));
@@ -365,8 +331,7 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
     /* _work: without the search for NaN, which is made above */
     double norm = rcond ? LAPACKE_dlange_work(LAPACK_COL_MAJOR, '1', size, size, a, size, NULL) : 0;
     lapack_int info = LAPACKE_dgesv_work(LAPACK_COL_MAJOR, size, (lapack_int)nrhs, a, size, swap, b, size);
-    if (info == 0 && rcond)
-        info = LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', size, a, size, norm, rcond);
+    if (info == 0 && rcond) info = LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', size, a, size, norm, rcond);
     if (swap != few) nh_free(swap);
     return worked(info);
 }
@@ -374,14 +339,11 @@ bool nh_solve(size_t n, double *a, size_t nrhs, double *b, double *rcond)
 /* dgelsy: rank by pivoted QR with a condition estimate; the solution of least norm.  It does not iterate. */
 int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size_t ldb, double rcond)
 {
-    if (!nh_all_finite(m * n, a))
-        return -1;
+    if (!nh_all_finite(m * n, a)) return -1;
     for (size_t j = 0; j < nrhs; j++)
-        if (!nh_all_finite(m, b + j * ldb))
-            return -1;
+        if (!nh_all_finite(m, b + j * ldb)) return -1;
     if (m == 0 || n == 0) {
-        for (size_t j = 0; j < nrhs; j++)
-            memset(b + j * ldb, 0, n * sizeof *b);
+        for (size_t j = 0; j < nrhs; j++) memset(b + j * ldb, 0, n * sizeof *b);
         return 0;
     }
     nh_work_add(NH_WORK_DENSE, PIVOTED * product(m, n, smaller(m, n)));
@@ -401,10 +363,8 @@ int nh_least_squares(size_t m, size_t n, double *a, size_t nrhs, double *b, size
 
 void nh_multiply(size_t m, size_t n, size_t k, const double *a, const double *b, double *c)
 {
-    if (k == 0)
-        memset(c, 0, m * n * sizeof *c);
-    if (m == 0 || n == 0 || k == 0)
-        return;
+    if (k == 0) memset(c, 0, m * n * sizeof *c);
+    if (m == 0 || n == 0 || k == 0) return;
     nh_work_add(NH_WORK_DENSE, product(m, n, k));
     look_for_room();
     lapack_int rows = (lapack_int)m, columns = (lapack_int)n, inner = (lapack_int)k;
@@ -418,8 +378,7 @@ void nh_multiply(size_t m, size_t n, size_t k, const double *a, const double *b,
 
 void nh_solve_triangle_right(size_t m, size_t n, const double *r, size_t ldr, double *b)
 {
-    if (m == 0 || n == 0)
-        return;
+    if (m == 0 || n == 0) return;
     nh_work_add(NH_WORK_DENSE, product(m, n, n) / 2);
     look_for_room();
     cblas_dtrsm(CblasColMajor, CblasRight, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)m, (lapack_int)n, 1.0, r,
@@ -428,8 +387,7 @@ void nh_solve_triangle_right(size_t m, size_t n, const double *r, size_t ldr, do
 
 void nh_solve_triangle(size_t n, size_t nrhs, const double *r, size_t ldr, double *x, size_t ldx)
 {
-    if (n == 0 || nrhs == 0)
-        return;
+    if (n == 0 || nrhs == 0) return;
     nh_work_add(NH_WORK_DENSE, product(n, n, nrhs) / 2);
     look_for_room();
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, (lapack_int)n, (lapack_int)nrhs, 1.0,
@@ -460,11 +418,8 @@ double nh_determinant(size_t n, double *a)
 double nh_norm(size_t count, const double *x)
 {
     double largest = 0, sum = 0;
-    for (size_t i = 0; i < count; i++)
-        largest = fmax(largest, fabs(x[i]));
-    if (largest == 0)
-        return 0;
-    for (size_t i = 0; i < count; i++)
-        sum += x[i] / largest * (x[i] / largest);
+    for (size_t i = 0; i < count; i++) largest = fmax(largest, fabs(x[i]));
+    if (largest == 0) return 0;
+    for (size_t i = 0; i < count; i++) sum += x[i] / largest * (x[i] / largest);
     return largest * sqrt(sum);
 }

@@ -17,67 +17,52 @@
 static nh_memory_handler *the_handler;
 static atomic_size_t before_failure = SIZE_MAX; /* allocations */
 
-void nh_memory_set_handler(nh_memory_handler *handler)
-{
-    the_handler = handler;
-}
+void nh_memory_set_handler(nh_memory_handler *handler) { the_handler = handler; }
 
 /* A handler that returns would leave its caller with a null pointer: abort rather than that. */
 void nh_memory_ended(size_t wanted)
 {
     nh_recovery_go(wanted);
-    if (the_handler)
-        the_handler(wanted);
+    if (the_handler) the_handler(wanted);
     abort();
 }
 
 void *nh_memory_got(void *pointer)
 {
-    if (!pointer)
-        nh_memory_ended(0);
+    if (!pointer) nh_memory_ended(0);
     return pointer;
 }
 
-size_t nh_memory_fail_after(size_t allocations)
-{
-    return atomic_exchange(&before_failure, allocations);
-}
+size_t nh_memory_fail_after(size_t allocations) { return atomic_exchange(&before_failure, allocations); }
 
 /* Is this the allocation that a test wants to fail? */
 static bool to_fail(void)
 {
-    if (atomic_load_explicit(&before_failure, memory_order_relaxed) == SIZE_MAX)
-        return false;
+    if (atomic_load_explicit(&before_failure, memory_order_relaxed) == SIZE_MAX) return false;
     return atomic_fetch_sub(&before_failure, 1) == 0;
 }
 
 static size_t product(size_t count, size_t size)
 {
     size_t bytes;
-    if (__builtin_mul_overflow(count, size, &bytes))
-        nh_memory_ended(SIZE_MAX);
+    if (__builtin_mul_overflow(count, size, &bytes)) nh_memory_ended(SIZE_MAX);
     return bytes ? bytes : 1;
 }
 
-void *nh_alloc(size_t size)
-{
-    return nh_alloc_array(1, size);
-}
+void *nh_alloc(size_t size) { return nh_alloc_array(1, size); }
 
 void *nh_alloc_array(size_t count, size_t size)
 {
     size_t bytes = product(count, size);
     void *memory = to_fail() ? NULL : calloc(1, bytes);
-    if (!memory)
-        nh_memory_ended(bytes);
+    if (!memory) nh_memory_ended(bytes);
     return memory;
 }
 
 void *nh_alloc_bytes(size_t size)
 {
     void *memory = to_fail() ? NULL : malloc(size ? size : 1);
-    if (!memory)
-        nh_memory_ended(size);
+    if (!memory) nh_memory_ended(size);
     return memory;
 }
 
@@ -85,15 +70,11 @@ void *nh_realloc_array(void *old, size_t count, size_t size)
 {
     size_t bytes = product(count, size);
     void *memory = to_fail() ? NULL : realloc(old, bytes);
-    if (!memory)
-        nh_memory_ended(bytes);
+    if (!memory) nh_memory_ended(bytes);
     return memory;
 }
 
-void nh_free(void *pointer)
-{
-    free(pointer);
-}
+void nh_free(void *pointer) { free(pointer); }
 
 char *nh_strdup(const char *text)
 {
@@ -158,13 +139,10 @@ double nh_memory_of_machine(void)
 /* `array_pointer` is a `T **`; memcpy reads and writes it without pretending that it is a `void **`. */
 void nh_grow(void *array_pointer, size_t *capacity, size_t need, size_t size)
 {
-    if (need <= *capacity)
-        return;
+    if (need <= *capacity) return;
     size_t wanted = *capacity > SIZE_MAX / 2 ? need : 2 * *capacity;
-    if (wanted < 8)
-        wanted = 8;
-    if (wanted < need)
-        wanted = need;
+    if (wanted < 8) wanted = 8;
+    if (wanted < need) wanted = need;
     void *array;
     memcpy(&array, array_pointer, sizeof array);
     array = nh_realloc_array(array, wanted, size);
@@ -188,15 +166,11 @@ struct nh_arena {
     size_t used, capacity; /* of the first block */
 };
 
-nh_arena *nh_arena_create(void)
-{
-    return nh_alloc(sizeof(nh_arena));
-}
+nh_arena *nh_arena_create(void) { return nh_alloc(sizeof(nh_arena)); }
 
 void nh_arena_free(nh_arena *arena)
 {
-    if (!arena)
-        return;
+    if (!arena) return;
     for (block *each = arena->first, *next; each; each = next) {
         next = each->next;
         nh_free(each);
@@ -206,8 +180,7 @@ void nh_arena_free(nh_arena *arena)
 
 static block *new_block(size_t size)
 {
-    if (size > SIZE_MAX - sizeof(block))
-        nh_memory_ended(SIZE_MAX);
+    if (size > SIZE_MAX - sizeof(block)) nh_memory_ended(SIZE_MAX);
     return nh_alloc(sizeof(block) + size);
 }
 
@@ -225,8 +198,7 @@ static void *alloc_large(nh_arena *arena, size_t size)
 
 void *nh_arena_alloc(nh_arena *arena, size_t size)
 {
-    if (size > LARGE)
-        return alloc_large(arena, size);
+    if (size > LARGE) return alloc_large(arena, size);
     size = size ? (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT : ALIGNMENT;
     if (size > arena->capacity - arena->used) {
         size_t room = arena->capacity ? 4 * arena->capacity : FIRST_BLOCK;
@@ -245,18 +217,13 @@ void *nh_arena_alloc(nh_arena *arena, size_t size)
 
 char *nh_arena_strndup(nh_arena *arena, const char *text, size_t length)
 {
-    if (length == SIZE_MAX)
-        nh_memory_ended(SIZE_MAX);
+    if (length == SIZE_MAX) nh_memory_ended(SIZE_MAX);
     char *copy = nh_arena_alloc(arena, length + 1);
-    if (length)
-        memcpy(copy, text, length);
+    if (length) memcpy(copy, text, length);
     return copy;
 }
 
-char *nh_arena_strdup(nh_arena *arena, const char *text)
-{
-    return nh_arena_strndup(arena, text, strlen(text));
-}
+char *nh_arena_strdup(nh_arena *arena, const char *text) { return nh_arena_strndup(arena, text, strlen(text)); }
 
 char *nh_arena_printf(nh_arena *arena, const char *format, ...)
 {
@@ -266,8 +233,7 @@ char *nh_arena_printf(nh_arena *arena, const char *format, ...)
     int length = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
     char *text = nh_arena_alloc(arena, length < 0 ? 1 : (size_t)length + 1);
-    if (length > 0)
-        vsnprintf(text, (size_t)length + 1, format, again);
+    if (length > 0) vsnprintf(text, (size_t)length + 1, format, again);
     va_end(again);
     return text;
 }

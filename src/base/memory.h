@@ -23,9 +23,9 @@ void *nh_memory_got(void *pointer);
  * left of the number before. */
 size_t nh_memory_fail_after(size_t allocations);
 
-void *nh_alloc(size_t size);                 /* zeroed; size 0 gives a valid pointer */
-void *nh_alloc_bytes(size_t size);           /* not zeroed */
-void *nh_alloc_array(size_t count, size_t size); /* zeroed; overflow of count*size is a failure, too */
+void *nh_alloc(size_t size);                                  /* zeroed; size 0 gives a valid pointer */
+void *nh_alloc_bytes(size_t size);                            /* not zeroed */
+void *nh_alloc_array(size_t count, size_t size);              /* zeroed; overflow of count*size is a failure, too */
 void *nh_realloc_array(void *old, size_t count, size_t size); /* new part not zeroed */
 void nh_free(void *pointer);
 char *nh_strdup(const char *text);

@@ -36,7 +36,8 @@ static double *field(nh_options *options, size_t index)
 
 const char *nh_option_name(const char *word)
 {
-#define X(old, name) if (!strcmp(word, #old)) return #name;
+#define X(old, name)                                                                                                   \
+    if (!strcmp(word, #old)) return #name;
     NH_OPTION_OLD_TABLE(X)
 #undef X
     return word;

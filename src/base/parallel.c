@@ -19,7 +19,7 @@ enum { most_threads = 64 };
  * other thread gives up its run, too, as soon as no thread works for it any more. */
 
 typedef struct {
-    bool recovers; /* the thread that asked for the work is within a run */
+    bool recovers;        /* the thread that asked for the work is within a run */
     atomic_size_t wanted; /* bytes wanted by a run that was given up; 0: none was */
 } rescue;
 
@@ -130,8 +130,8 @@ static void await(nh_undo *undo) { pthread_join(((nh_aside *)undo)->thread, NULL
 nh_aside *nh_aside_begin(void (*job)(void *), void *context)
 {
     nh_aside *a = nh_alloc(sizeof *a);
-    *a = (nh_aside){.undo.undo = await, .job = job, .context = context, .here = nh_context_here(),
-                    .rescue = rescue_here()};
+    *a = (nh_aside){
+        .undo.undo = await, .job = job, .context = context, .here = nh_context_here(), .rescue = rescue_here()};
     a->started = pthread_create(&a->thread, NULL, do_aside, a) == 0;
     if (a->started) nh_undo_add(&a->undo);
     else job(context);

@@ -4,9 +4,9 @@
 
 typedef struct recovery recovery;
 struct recovery {
-    jmp_buf   at;
+    jmp_buf at;
     recovery *around;
-    uint64_t  number; /* number of the last undo that was added before the run */
+    uint64_t number; /* number of the last undo that was added before the run */
 };
 
 static _Thread_local recovery *innermost;

@@ -16,7 +16,7 @@
 typedef struct nh_undo {
     void (*undo)(struct nh_undo *undo); /* must not allocate */
     struct nh_undo *before;
-    uint64_t        number;
+    uint64_t number;
 } nh_undo;
 
 /* Runs job(data).  False: an allocation failed, and the job was given up. */
@@ -36,7 +36,7 @@ void nh_undo_remove(nh_undo *undo);
 /* A mutex that is held while memory is allocated: nh_hold locks it, nh_release unlocks it, and so does a run that is
  * given up. */
 typedef struct {
-    nh_undo          undo; /* first */
+    nh_undo undo; /* first */
     pthread_mutex_t *lock;
 } nh_held;
 

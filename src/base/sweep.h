@@ -25,14 +25,14 @@ typedef struct {
 } nh_team;
 
 typedef struct {
-    const char *folder;       /* folder of the unit files; it exists */
-    const char *name;         /* the beginning of their names */
-    const char *fingerprint;  /* one line: what the answers depend on */
-    const char *doing;        /* for progress reports */
+    const char *folder;      /* folder of the unit files; it exists */
+    const char *name;        /* the beginning of their names */
+    const char *fingerprint; /* one line: what the answers depend on */
+    const char *doing;       /* for progress reports */
     size_t items, per_unit;
-    size_t chunk, chunks;     /* only units number chunk, chunk + chunks, ..; 0, 1: all */
-    size_t workers;           /* processes; 1: this one alone */
-    const nh_team *team;      /* or NULL */
+    size_t chunk, chunks;       /* only units number chunk, chunk + chunks, ..; 0, 1: all */
+    size_t workers;             /* processes; 1: this one alone */
+    const nh_team *team;        /* or NULL */
     void (*begin_worker)(void); /* called first in a new process; may be NULL */
     /* Appends the line, without its end. False: interrupted (base/progress.h), there is no answer. */
     bool (*item)(void *context, size_t index, nh_text *line);
@@ -41,9 +41,9 @@ typedef struct {
 
 /* The state of the chunk afterwards. */
 typedef struct {
-    size_t units, finished;   /* number of units, and how many are finished */
-    size_t deaths;            /* workers that ended before their work did */
-    char death[120];          /* how the last of them ended */
+    size_t units, finished; /* number of units, and how many are finished */
+    size_t deaths;          /* workers that ended before their work did */
+    char death[120];        /* how the last of them ended */
 } nh_sweep_state;
 
 /* Computes the units that are missing.  False: a file could not be written; finished units are kept. */

@@ -19,7 +19,7 @@ enum { most_workers = 256 };
 
 typedef struct {
     atomic_size_t next, items_done;
-    atomic_bool failed;            /* the first failure is written below */
+    atomic_bool failed; /* the first failure is written below */
     nh_error error;
 } shared;
 

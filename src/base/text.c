@@ -12,10 +12,7 @@
 
 #include "base/memory.h"
 
-void nh_text_init(nh_text *text)
-{
-    *text = (nh_text){0};
-}
+void nh_text_init(nh_text *text) { *text = (nh_text){0}; }
 
 void nh_text_clear(nh_text *text)
 {
@@ -23,10 +20,7 @@ void nh_text_clear(nh_text *text)
     nh_text_init(text);
 }
 
-const char *nh_text_string(const nh_text *text)
-{
-    return text->data ? text->data : "";
-}
+const char *nh_text_string(const nh_text *text) { return text->data ? text->data : ""; }
 
 void nh_text_cut(nh_text *text, size_t length)
 {
@@ -38,16 +32,12 @@ void nh_text_cut(nh_text *text, size_t length)
 void nh_text_add_n(nh_text *text, const char *string, size_t length)
 {
     nh_grow(&text->data, &text->capacity, text->length + length + 1, 1);
-    if (length)
-        memcpy(text->data + text->length, string, length);
+    if (length) memcpy(text->data + text->length, string, length);
     text->length += length;
     text->data[text->length] = '\0';
 }
 
-void nh_text_add(nh_text *text, const char *string)
-{
-    nh_text_add_n(text, string, strlen(string));
-}
+void nh_text_add(nh_text *text, const char *string) { nh_text_add_n(text, string, strlen(string)); }
 
 void nh_text_addf(nh_text *text, const char *format, ...)
 {
@@ -101,18 +91,8 @@ static bool short_enough(double value, binary *b)
 
 static nh_wide power_of_ten(int n)
 {
-    static const uint64_t power[] = {1,
-                                     10,
-                                     100,
-                                     1000,
-                                     10000,
-                                     100000,
-                                     1000000,
-                                     10000000,
-                                     100000000,
-                                     1000000000,
-                                     10000000000,
-                                     100000000000};
+    static const uint64_t power[] = {1,       10,       100,       1000,       10000,       100000,
+                                     1000000, 10000000, 100000000, 1000000000, 10000000000, 100000000000};
     enum { most = sizeof power / sizeof *power - 1 };
     return n <= most ? (nh_wide)power[n] : (nh_wide)power[most] * power[n - most];
 }
@@ -251,8 +231,7 @@ void nh_text_number(double value, char *out, size_t size)
 
 static const char *skip_digits(const char *s)
 {
-    while (isdigit((unsigned char)*s))
-        s++;
+    while (isdigit((unsigned char)*s)) s++;
     return s;
 }
 
@@ -267,12 +246,10 @@ bool nh_text_is_number(const char *s)
         s = skip_digits(s);
         digits += (size_t)(s - fraction);
     }
-    if (digits == 0)
-        return false;
+    if (digits == 0) return false;
     if (*s == 'e' || *s == 'E') {
         s += s[1] == '+' || s[1] == '-' ? 2 : 1;
-        if (!isdigit((unsigned char)*s))
-            return false;
+        if (!isdigit((unsigned char)*s)) return false;
         s = skip_digits(s);
     }
     return *s == '\0';
@@ -280,12 +257,10 @@ bool nh_text_is_number(const char *s)
 
 bool nh_text_to_number(const char *text, double *out)
 {
-    if (!nh_text_is_number(text))
-        return false;
+    if (!nh_text_is_number(text)) return false;
     double value = strtod(text, NULL);
     bool zero = strcspn(text, "123456789") >= strcspn(text, "eE"); /* no other digit before the exponent */
-    if (!isfinite(value) || (value == 0 && !zero))
-        return false;
+    if (!isfinite(value) || (value == 0 && !zero)) return false;
     *out = value;
     return true;
 }
@@ -312,15 +287,9 @@ bool nh_text_to_ratio(const char *text, double *out)
 
 enum { WORD_MAX = 63 }; /* longer words are not compared */
 
-static char lower(char c)
-{
-    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
-}
+static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
-static size_t smaller(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
+static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
 
 /* Damerau-Levenshtein distance (optimal string alignment: no substring is edited twice), case ignored:
  *
@@ -330,8 +299,7 @@ static size_t smaller(size_t a, size_t b)
 static size_t distance(const char *a, size_t na, const char *b, size_t nb)
 {
     size_t row[3][WORD_MAX + 1];
-    for (size_t j = 0; j <= nb; j++)
-        row[0][j] = j;
+    for (size_t j = 0; j <= nb; j++) row[0][j] = j;
     for (size_t i = 1; i <= na; i++) {
         size_t *now = row[i % 3], *last = row[(i + 2) % 3], *before = row[(i + 1) % 3];
         now[0] = i;
@@ -360,8 +328,7 @@ static bool near_enough(const char *word, size_t nw, const char *candidate, size
 {
     size_t allowed = nw <= 4 ? 1 : nw <= 8 ? 2 : 3;
     size_t shorter = smaller(nw, nc), longer = nw + nc - shorter;
-    if (apart <= allowed && apart < longer)
-        return true;
+    if (apart <= allowed && apart < longer) return true;
     size_t common = common_start(word, candidate);
     return (shorter >= 3 && common == shorter) || (shorter >= 6 && common + 1 == shorter);
 }
@@ -370,12 +337,10 @@ const char *nh_text_nearest(const char *word, const char *const *candidates, siz
 {
     const char *nearest = NULL;
     size_t least = 0, nw = strlen(word);
-    if (nw == 0 || nw > WORD_MAX)
-        return NULL;
+    if (nw == 0 || nw > WORD_MAX) return NULL;
     for (size_t i = 0; i < count; i++) {
         size_t nc = strlen(candidates[i]);
-        if (nc > WORD_MAX)
-            continue;
+        if (nc > WORD_MAX) continue;
         size_t apart = distance(word, nw, candidates[i], nc);
         if (near_enough(word, nw, candidates[i], nc, apart) && (!nearest || apart < least)) {
             nearest = candidates[i];
@@ -389,8 +354,7 @@ size_t nh_text_width(const char *string)
 {
     size_t width = 0;
     for (; *string; string++)
-        if (((unsigned char)*string & 0xC0) != 0x80)
-            width++;
+        if (((unsigned char)*string & 0xC0) != 0x80) width++;
     return width;
 }
 

@@ -35,8 +35,8 @@ static bool roots_of(search *s, size_t degree, nh_parametric_series *x, nh_resid
     if (!x) return false;
     nh_sparse_pencil pencil = {0};
     nh_parametric_variable variable;
-    bool good = pencil_of(s, x, degree, &pencil, &variable)
-        && nh_staircase(&pencil, x->ring->field, &s->products, chi, &out->nullity);
+    bool good = pencil_of(s, x, degree, &pencil, &variable) &&
+                nh_staircase(&pencil, x->ring->field, &s->products, chi, &out->nullity);
     if (good) nh_parametric_back(&variable, x->ring->field, chi);
     if (good) {
         Q->degree = x->degree;
@@ -133,8 +133,8 @@ static nh_classify_value *value_of(search *s, const nh_special_factor *f)
         if (same_factor(&c->value[k].polynomial, f)) return &c->value[k];
     nh_grow(&c->value, &c->capacity, c->values + 1, sizeof *c->value);
     nh_classify_value *v = &c->value[c->values++];
-    *v = (nh_classify_value){.polynomial = {.degree = f->degree,
-                                            .coefficient = nh_alloc_array(f->degree + 1, sizeof *f->coefficient)}};
+    *v = (nh_classify_value){
+        .polynomial = {.degree = f->degree, .coefficient = nh_alloc_array(f->degree + 1, sizeof *f->coefficient)}};
     memcpy(v->polynomial.coefficient, f->coefficient, (f->degree + 1) * sizeof *f->coefficient);
     return v;
 }
@@ -154,8 +154,8 @@ static void count_values(search *s, size_t degree)
         nh_progress("special values", -1);
         place p = {.kind = NH_CLASSIFY_ROOT, .root = &v->polynomial};
         nh_classify_number *n = &v->number[degree];
-        bool counted = nh_classify_count(s, degree, &p, row->number.bound, NULL, n), more = counted
-            && n->bound > row->number.bound;
+        bool counted = nh_classify_count(s, degree, &p, row->number.bound, NULL, n),
+             more = counted && n->bound > row->number.bound;
         if ((more || !counted) && !v->first && !v->open) v->degenerate = nh_classify_singular(s, &p);
         if (v->degenerate) continue;
         if (more && n->settled && !v->first) v->first = degree;
@@ -305,14 +305,16 @@ static void run(search *s)
         /* the other parity was examined one degree lower */
         if (c->rows) row.height = fmin(row.height, c->row[c->rows - 1].height);
         if (!good) {
-            c->end = s->family.obstacle ? s->family.obstacle : nh_late() ? "time" : !row.number.bounded ? "work"
-                : s->products < 0 ? "staircase" : "unknowns";
+            c->end = s->family.obstacle    ? s->family.obstacle
+                     : nh_late()           ? "time"
+                     : !row.number.bounded ? "work"
+                     : s->products < 0     ? "staircase"
+                                           : "unknowns";
             break;
         }
         c->row[c->rows++] = row;
         count_values(s, degree);
-        if (c->limit)
-            nh_classify_count(s, degree, &infinite, row.number.bound, NULL, &c->row[degree - 1].infinite);
+        if (c->limit) nh_classify_count(s, degree, &infinite, row.number.bound, NULL, &c->row[degree - 1].infinite);
     }
     if (c->rows < last_degree(s) && !c->end) c->end = "time";
     if (s->family.obstacle && !c->rows) c->obstacle = s->family.obstacle;

@@ -22,27 +22,27 @@
 enum { NH_CLASSIFY_MOST_PRIMES = 12 };
 
 typedef struct {
-    size_t parameter;        /* index of lambda in the model */
+    size_t parameter; /* index of lambda in the model */
     bool two;
-    size_t second;           /* index of mu where `two`; with bottom > 0 mu is held at top/bottom */
+    size_t second; /* index of mu where `two`; with bottom > 0 mu is held at top/bottom */
     int64_t top, bottom;
     bool three;
     /* index of nu where `three`; held at third_top/third_bottom, which the search sets when third_bottom == 0 */
     size_t third;
     int64_t third_top, third_bottom;
-    size_t planes;           /* where `three`: planes nu = a/b up to this height are examined one after another */
-    size_t plane;            /* where `two`: the largest size of a determinant; beyond it lines are examined instead */
-    size_t lines;            /* lines mu = a/b up to this height are examined */
-    bool shape;              /* coefficients do not depend on cyclic coordinates */
+    size_t planes; /* where `three`: planes nu = a/b up to this height are examined one after another */
+    size_t plane;  /* where `two`: the largest size of a determinant; beyond it lines are examined instead */
+    size_t lines;  /* lines mu = a/b up to this height are examined */
+    bool shape;    /* coefficients do not depend on cyclic coordinates */
     /* not NULL: its solutions are counted instead of integrals, and its levels are the degrees */
     const nh_linear_family *linear;
-    size_t degree;           /* the highest degree */
-    double work;             /* products of residues that one count may take */
-    double products;         /* products of residues that the search for the values of one degree may take */
-    size_t theorem;          /* most primes of a proof that leaves out no number */
-    size_t unknowns;         /* size of the largest linear system */
+    size_t degree;   /* the highest degree */
+    double work;     /* products of residues that one count may take */
+    double products; /* products of residues that the search for the values of one degree may take */
+    size_t theorem;  /* most primes of a proof that leaves out no number */
+    size_t unknowns; /* size of the largest linear system */
     size_t known;
-    const nh_ex *current;    /* integrals that hold for every value */
+    const nh_ex *current; /* integrals that hold for every value */
 } nh_classify_question;
 
 /* An upper bound for the number of integrals of one degree. */
@@ -56,18 +56,18 @@ typedef struct {
     nh_special_factor polynomial; /* the values are its roots */
     /* the equations are singular there: det M, or what they are divided by, vanishes at every point */
     bool degenerate;
-    size_t first;            /* the lowest degree at which there are more integrals than for almost all values; 0:
+    size_t first; /* the lowest degree at which there are more integrals than for almost all values; 0:
                               * none */
-    size_t open;             /* the lowest degree at which this is undecided; 0: none */
+    size_t open;  /* the lowest degree at which this is undecided; 0: none */
     nh_classify_number number[NH_COUNT_HIGHEST_DEGREE + 1]; /* by degree */
 } nh_classify_value;
 
 typedef struct {
     nh_classify_number number; /* for almost all values */
-    size_t known;            /* independent products of known integrals, with 1 */
-    size_t unknowns, power;  /* size of the linear system, and its degree in the parameter */
-    size_t roots;            /* number of roots of chi common to the points, degenerate ones excluded */
-    bool lifted;             /* the roots are known as numbers; otherwise only modulo the primes */
+    size_t known;              /* independent products of known integrals, with 1 */
+    size_t unknowns, power;    /* size of the linear system, and its degree in the parameter */
+    size_t roots;              /* number of roots of chi common to the points, degenerate ones excluded */
+    bool lifted;               /* the roots are known as numbers; otherwise only modulo the primes */
     size_t primes;
     uint64_t prime[NH_CLASSIFY_MOST_PRIMES];
     /* no other rational number with numerator and denominator up to this is special; 0: the roots of this or of a lower
@@ -75,11 +75,11 @@ typedef struct {
     double height;
     /* generic nullity of the equations for the integrals with this degree's parity, where `split` */
     size_t nullity;
-    bool split;              /* integrals are even or odd in the velocities */
+    bool split; /* integrals are even or odd in the velocities */
     /* an upper bound for the length of special values in bits (special_bound.h); 0: not known */
     double bits;
-    size_t theorem_primes;   /* so many primes exclude every other complex number */
-    bool theorem;            /* all of them were tried, for both parities */
+    size_t theorem_primes;       /* so many primes exclude every other complex number */
+    bool theorem;                /* all of them were tried, for both parities */
     nh_classify_number infinite; /* for the parameter at infinity, where the equations have this limit */
 } nh_classify_row;
 
@@ -90,9 +90,9 @@ typedef struct {
      * 0) */
     nh_classify_value *value;
     size_t step;
-    bool limit;              /* the equations have a limit as the parameter goes to infinity */
-    const char *obstacle;    /* why nothing was classified, or NULL */
-    const char *end;         /* why no higher degree was reached, or NULL */
+    bool limit;           /* the equations have a limit as the parameter goes to infinity */
+    const char *obstacle; /* why nothing was classified, or NULL */
+    const char *end;      /* why no higher degree was reached, or NULL */
 } nh_classification;
 
 /* Classifies degree after degree, up to the question's degree or to a limit (`end`).  Never NULL: what cannot be

@@ -12,8 +12,9 @@ typedef nh_classify_place place;
 
 void nh_classify_open(search *s, const nh_model *model, const nh_classify_question *q)
 {
-    *s = (search){.q = q, .count = {.generic = true, .degree = q->degree, .work = q->work, .known = q->known,
-                                    .current = q->current}};
+    *s = (search){
+        .q = q,
+        .count = {.generic = true, .degree = q->degree, .work = q->work, .known = q->known, .current = q->current}};
     size_t parameter[3] = {q->parameter, q->two ? q->second : SIZE_MAX, q->three ? q->third : SIZE_MAX};
     nh_parametric_open(&s->family, model, parameter, q->shape, q->linear, &s->count);
     s->family.held = q->two && q->bottom > 0;
@@ -31,8 +32,8 @@ static bool hold(search *s, nh_prime f)
 {
     const nh_classify_question *q = s->q;
     if (q->two && q->bottom > 0 && !nh_residue_ratio(f, q->top, q->bottom, &s->family.value)) return false;
-    return !q->three || q->third_bottom == 0
-        || nh_residue_ratio(f, q->third_top, q->third_bottom, &s->family.third_value);
+    return !q->three || q->third_bottom == 0 ||
+           nh_residue_ratio(f, q->third_top, q->third_bottom, &s->family.third_value);
 }
 
 nh_parametric_series *nh_classify_series(search *s, nh_prime f, uint64_t seed, size_t order)
@@ -79,8 +80,10 @@ static bool totals(search *s, const nh_parametric_series *x, const nh_residue *v
     for (size_t i = 0; i < n; i++) d.w[i] = nh_residue_random(x->ring->field, &random);
     memset(total, 0, (order + 1) * sizeof *total);
     for (int part = 0; part < (x->split ? 2 : 1) && good; part++) {
-        nh_graded_problem p = nh_parametric_problem(f, x, values, degree, !x->split ? NH_ALL_DEGREES : part
-                                                    ? NH_ODD_DEGREES : NH_EVEN_DEGREES);
+        nh_graded_problem p = nh_parametric_problem(f, x, values, degree,
+                                                    !x->split ? NH_ALL_DEGREES
+                                                    : part    ? NH_ODD_DEGREES
+                                                              : NH_EVEN_DEGREES);
         nh_graded_count *g = nh_graded_solve(&p);
         good = g->solved;
         if (!g->injective) from = SIZE_MAX;
@@ -94,8 +97,11 @@ static bool totals(search *s, const nh_parametric_series *x, const nh_residue *v
     while (same > 0 && total[same - 1] == total[order]) same--;
     bool bounded = good && from <= order;
     if (bounded && same < from) same = from;
-    *out = (nh_classify_number){.bound = total[order], .order = order, .rank = nh_count_rank(&d, x->ring->field),
-                                .counted = good, .bounded = bounded,
+    *out = (nh_classify_number){.bound = total[order],
+                                .order = order,
+                                .rank = nh_count_rank(&d, x->ring->field),
+                                .counted = good,
+                                .bounded = bounded,
                                 .settled = bounded && order - same >= step + steps_beyond};
     nh_free(d.row);
     nh_free(d.w);
@@ -125,7 +131,10 @@ static void dimension(search *s, nh_prime f, size_t level, const place *p, nh_re
     for (size_t order = l->low + 1, same = 0; !nh_late(); order++) {
         if (!dimension_at(s, f, level, order, p, lambda, &number)) break;
         same = out->bounded && number == out->bound ? same + 1 : 0;
-        *out = (nh_classify_number){.bound = number, .order = order, .counted = true, .bounded = true,
+        *out = (nh_classify_number){.bound = number,
+                                    .order = order,
+                                    .counted = true,
+                                    .bounded = true,
                                     .settled = same >= steps_beyond && order > seen};
         if (number == least || out->settled) break;
     }
@@ -150,8 +159,7 @@ bool nh_classify_singular(search *s, const place *p)
 {
     nh_prime f;
     nh_residue lambda;
-    return prime_of(s, p, &f, &lambda) && hold(s, f)
-        && nh_parametric_singular(&s->family, f, lambda, s->family.value);
+    return prime_of(s, p, &f, &lambda) && hold(s, f) && nh_parametric_singular(&s->family, f, lambda, s->family.value);
 }
 
 bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, size_t *known, nh_classify_number *out)
@@ -170,8 +178,8 @@ bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, s
         s->family.held = held;
         return out->bounded;
     }
-    for (size_t order = degree + first_beyond; s->family.counter.work < s->count.work
-         && !nh_late(); order += step + 1) {
+    for (size_t order = degree + first_beyond; s->family.counter.work < s->count.work && !nh_late();
+         order += step + 1) {
         nh_parametric_series *x = nh_classify_series(s, f, 7 + degree, order);
         if (!x) break;
         if (step != nh_parametric_step(&s->family)) { /* the order is known only now */
@@ -198,4 +206,3 @@ bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, s
     s->family.held = held;
     return out->bounded;
 }
-

@@ -11,7 +11,7 @@ typedef struct {
     nh_count_question count;
     nh_parametric family;
     nh_classification *out;
-    double products;         /* products of residues that the search for the values of this degree may still take */
+    double products; /* products of residues that the search for the values of this degree may still take */
 } nh_classify_search;
 
 /* Opens the family, which the caller closes; an obstacle is in the family. */
@@ -19,8 +19,13 @@ void nh_classify_open(nh_classify_search *search, const nh_model *model, const n
 
 /* The value of the parameter at which the equations are taken.  With two parameters mu has the value of the question or
  * a random one, and so has nu with three. */
-typedef enum { NH_CLASSIFY_ANY, NH_CLASSIFY_ROOT, NH_CLASSIFY_INFINITE, NH_CLASSIFY_CURVE,
-               NH_CLASSIFY_SURFACE } nh_classify_kind;
+typedef enum {
+    NH_CLASSIFY_ANY,
+    NH_CLASSIFY_ROOT,
+    NH_CLASSIFY_INFINITE,
+    NH_CLASSIFY_CURVE,
+    NH_CLASSIFY_SURFACE
+} nh_classify_kind;
 typedef struct {
     nh_classify_kind kind;
     const nh_special_factor *root;

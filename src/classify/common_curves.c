@@ -85,8 +85,7 @@ static ulong *values_of(const nh_residue_surface *x, nh_prime f, size_t count)
     for (size_t k = 0; k < count; k++) place[k] = k + 1;
     for (size_t i = 0; i < width && !nh_late(); i++) {
         nmod_poly_zero(p);
-        for (size_t j = 0; j <= x->degree[1]; j++)
-            nmod_poly_set_coeff_ui(p, (slong)j, x->coefficient[j * width + i]);
+        for (size_t j = 0; j <= x->degree[1]; j++) nmod_poly_set_coeff_ui(p, (slong)j, x->coefficient[j * width + i]);
         nmod_poly_evaluate_nmod_vec(place + count, p, place, (slong)count);
         for (size_t k = 0; k < count; k++) value[k * width + i] = place[count + k];
     }

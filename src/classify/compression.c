@@ -20,8 +20,8 @@ static void add_multiple(nmod_mat_t sum, nh_prime f, nh_residue a, const nh_resi
     slong columns = nmod_mat_ncols(sum);
     for (slong i = 0; i < nmod_mat_nrows(sum); i++)
         for (slong j = 0; j < columns; j++)
-            nmod_mat_entry(sum, i, j) = nh_residue_add(f, (nh_residue)nmod_mat_entry(sum, i, j),
-                                                       nh_residue_mul(f, a, m[i * columns + j]));
+            nmod_mat_entry(sum, i, j) =
+                nh_residue_add(f, (nh_residue)nmod_mat_entry(sum, i, j), nh_residue_mul(f, a, m[i * columns + j]));
 }
 
 size_t nh_compression_rank(const nh_staircase_matrices *m, nh_prime f)

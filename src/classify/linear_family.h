@@ -25,14 +25,14 @@ typedef struct {
     size_t unknowns;
     /* the equations of each level: the first level[i].equations of all */
     size_t levels, equations[NH_LINEAR_MOST_LEVELS];
-    size_t known;            /* independent solutions for every value; SIZE_MAX: unknown */
-    size_t low;              /* s */
-    size_t step;             /* brackets of this length of fields in the equations span everything */
-    size_t variables;        /* q: symbols */
+    size_t known;     /* independent solutions for every value; SIZE_MAX: unknown */
+    size_t low;       /* s */
+    size_t step;      /* brackets of this length of fields in the equations span everything */
+    size_t variables; /* q: symbols */
     const nh_ex *variable;
     const nh_ex *coefficient; /* of the last level: (e * unknowns + a) * (variables + 1) + k, N behind the L; or NULL */
-    size_t n;                /* where a determinant vanishes for some value the equations mean nothing: */
-    const nh_ex *mass;       /* n x n */
+    size_t n;                 /* where a determinant vanishes for some value the equations mean nothing: */
+    const nh_ex *mass;        /* n x n */
 } nh_linear_family;
 
 #endif

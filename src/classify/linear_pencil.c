@@ -73,8 +73,8 @@ bool nh_linear_pencil(const nh_parametric *f, const nh_parametric_series *s, siz
                       nh_sparse_pencil *out)
 {
     layout y = layout_of(f, s, level);
-    *out = (nh_sparse_pencil){.rows = y.rows, .columns = y.unknowns * y.columns, .degree = s->degree,
-                              .second = s->second};
+    *out =
+        (nh_sparse_pencil){.rows = y.rows, .columns = y.unknowns * y.columns, .degree = s->degree, .second = s->second};
     if (out->columns > most) return false;
     for (size_t j = 0; j < (s->degree + 1) * (s->second + 1); j++) {
         target t = {out, j};

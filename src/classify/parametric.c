@@ -17,9 +17,9 @@ static nh_ex symbol_of(const nh_parametric *f) { return f->counter.equations->mo
 static bool depends(const nh_parametric *f, nh_ex e)
 {
     const nh_jet_equations *x = f->counter.equations;
-    return nh_depends(x->dag, e, symbol_of(f))
-        || (f->second != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->second]))
-        || (f->third != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->third]));
+    return nh_depends(x->dag, e, symbol_of(f)) ||
+           (f->second != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->second])) ||
+           (f->third != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->third]));
 }
 
 static size_t factor_of(nh_parametric *f, nh_ex base)
@@ -62,8 +62,8 @@ bool nh_parametric_rational(nh_dag *d, nh_ex e, nh_ex symbol)
         for (size_t j = 0; j < nh_arity(d, node[i]) && rational; j++) {
             nh_ex exponent = nh_exponent_of(d, node[i], j);
             bool whole = nh_kind_of(d, exponent) == NH_NUMBER && nh_number_of(d, exponent).q == 1;
-            rational = whole ? true : !nh_depends(d, nh_child(d, node[i], j), symbol)
-                && !nh_depends(d, exponent, symbol);
+            rational =
+                whole ? true : !nh_depends(d, nh_child(d, node[i], j), symbol) && !nh_depends(d, exponent, symbol);
         }
     return rational;
 }
@@ -122,9 +122,9 @@ static void look(nh_parametric *f)
     size_t of_rest[most_factors] = {0};
     if (inside_functions(f)) f->obstacle = "the parameter occurs inside of a function or a root";
     else if (!plain(f) && any_depends(f, x->m, x->rho)) f->obstacle = "the constraints depend on the parameter";
-    else if (!in_equations(f, symbol_of(f))
-             && (f->second == SIZE_MAX || !in_equations(f, x->model->parameter[f->second]))
-             && (f->third == SIZE_MAX || !in_equations(f, x->model->parameter[f->third])))
+    else if (!in_equations(f, symbol_of(f)) &&
+             (f->second == SIZE_MAX || !in_equations(f, x->model->parameter[f->second])) &&
+             (f->third == SIZE_MAX || !in_equations(f, x->model->parameter[f->third])))
         f->obstacle = nh_parametric_constant;
     if (f->obstacle) return;
     nh_parametric_denominators(f, x->n * x->n, x->M, f->of_mass);
@@ -139,8 +139,8 @@ static void look(nh_parametric *f)
 void nh_parametric_open(nh_parametric *f, const nh_model *model, const size_t parameter[3], bool shape,
                         const nh_linear_family *linear, const nh_count_question *question)
 {
-    *f = (nh_parametric){.parameter = parameter[0], .second = parameter[1], .third = parameter[2], .shape = shape,
-                         .linear = linear};
+    *f = (nh_parametric){
+        .parameter = parameter[0], .second = parameter[1], .third = parameter[2], .shape = shape, .linear = linear};
     nh_counter_open(&f->counter, model, question, false);
     nh_jet_equations *x = f->counter.equations;
     f->index = nh_alloc_array(x->coordinates + 1, sizeof *f->index);
@@ -236,8 +236,8 @@ static void set_parameters(nh_parametric *f, nh_residue lambda, nh_residue mu)
 static bool multiplier(nh_parametric *f, const nh_jet_ring *r, const nh_residue *coordinate, nh_residue *out)
 {
     nh_jet_equations *x = f->counter.equations;
-    nh_residue *M = nh_alloc_array((x->n * x->n + 2) * r->size,
-                                   sizeof *M), *value = M + x->n * x->n * r->size, *work = value + r->size;
+    nh_residue *M = nh_alloc_array((x->n * x->n + 2) * r->size, sizeof *M), *value = M + x->n * x->n * r->size,
+               *work = value + r->size;
     nh_jet_eval *v = nh_jet_equations_eval(x, r, coordinate);
     bool good = nh_jet_eval_all(v, x->n * x->n, x->M, M);
     if (good) nh_parametric_determinant(r, x->n, M, out);
@@ -313,9 +313,9 @@ bool nh_parametric_motion(nh_parametric *f, const nh_jet_ring *r, nh_residue *co
     size_t length = rates_at + x->n * nh_jet_equations_monomials(x->n) * r->size;
     set_parameters(f, lambda, mu);
     bool good = plain(f) ? plain_series(f, r, coordinate, out + r->size)
-        : nh_adapted_frame_series(f->counter.frame, r, coordinate, out + r->size);
-    good = good && multiplier(f, r, coordinate, out) && out[0]
-        && nh_jet_equations_accelerations(x, r, coordinate, out + rates_at);
+                         : nh_adapted_frame_series(f->counter.frame, r, coordinate, out + r->size);
+    good = good && multiplier(f, r, coordinate, out) && out[0] &&
+           nh_jet_equations_accelerations(x, r, coordinate, out + rates_at);
     nh_residue *work = nh_alloc_array(r->size, sizeof *work);
     for (size_t k = r->size; k < length && good; k += r->size) times(r, out + k, out, work);
     nh_free(work);
@@ -326,7 +326,7 @@ bool nh_parametric_motion(nh_parametric *f, const nh_jet_ring *r, nh_residue *co
 bool nh_parametric_value(nh_parametric *f, nh_parametric_series *s, nh_residue lambda, nh_residue mu, nh_residue *out)
 {
     return f->linear ? nh_parametric_linear_value(f, s, lambda, mu, out)
-        : nh_parametric_motion(f, s->ring, s->coordinate, lambda, mu, out);
+                     : nh_parametric_motion(f, s->ring, s->coordinate, lambda, mu, out);
 }
 
 /* ---- creation ---- */
@@ -360,7 +360,7 @@ nh_parametric_series *nh_parametric_series_create(nh_parametric *f, size_t order
     s->fields_at = size;
     s->rates_at = size + x->fields * kept * size;
     s->length = f->linear ? nh_parametric_linear_length(f, s->ring)
-        : s->rates_at + x->n * nh_jet_equations_monomials(x->n) * size;
+                          : s->rates_at + x->n * nh_jet_equations_monomials(x->n) * size;
     s->coordinate = nh_alloc_array((x->coordinates + 1) * size, sizeof *s->coordinate);
     *regular = nh_parametric_interpolate(f, s);
     if (*regular) {
@@ -396,7 +396,13 @@ nh_graded_problem nh_parametric_problem(const nh_parametric *f, const nh_paramet
                                         size_t degree, nh_parity parity)
 {
     const nh_jet_equations *x = f->counter.equations;
-    return (nh_graded_problem){.ring = s->ring, .n = x->n, .fields = x->fields, .field = values + s->fields_at,
-                               .rate = values + s->rates_at, .degree = degree, .parity = parity,
-                               .most_parameters = most_parameters, .most_work = f->counter.q->work - f->counter.work};
+    return (nh_graded_problem){.ring = s->ring,
+                               .n = x->n,
+                               .fields = x->fields,
+                               .field = values + s->fields_at,
+                               .rate = values + s->rates_at,
+                               .degree = degree,
+                               .parity = parity,
+                               .most_parameters = most_parameters,
+                               .most_work = f->counter.q->work - f->counter.work};
 }

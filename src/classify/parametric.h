@@ -24,19 +24,19 @@
 #include "classify/staircase.h"
 
 typedef struct {
-    nh_counter counter;      /* the equations, with the parameter as a symbol, and the known integrals */
+    nh_counter counter; /* the equations, with the parameter as a symbol, and the known integrals */
     /* index of lambda in the model, whose other parameters are replaced by numbers, except mu and nu */
     size_t parameter;
-    size_t second;           /* index of mu; SIZE_MAX: there is none */
-    bool held;               /* mu is held at the residue `value` */
-    nh_residue value;        /* then the series are those of one parameter */
-    size_t third;            /* index of nu, which is always held at third_value; SIZE_MAX: there is none */
+    size_t second;    /* index of mu; SIZE_MAX: there is none */
+    bool held;        /* mu is held at the residue `value` */
+    nh_residue value; /* then the series are those of one parameter */
+    size_t third;     /* index of nu, which is always held at third_value; SIZE_MAX: there is none */
     nh_residue third_value;
-    bool shape;              /* coefficients do not depend on cyclic coordinates, which are left out */
-    const nh_linear_family *linear; /* NULL: the equations of motion */
-    nh_ex *entry;            /* coefficients of `linear`, and masses, in canonical form */
-    size_t kept, *index;     /* where there is no frame: the coordinates of the series */
-    nh_ex *factor;           /* q is a product of powers of these, which depend on the parameter; */
+    bool shape;                         /* coefficients do not depend on cyclic coordinates, which are left out */
+    const nh_linear_family *linear;     /* NULL: the equations of motion */
+    nh_ex *entry;                       /* coefficients of `linear`, and masses, in canonical form */
+    size_t kept, *index;                /* where there is no frame: the coordinates of the series */
+    nh_ex *factor;                      /* q is a product of powers of these, which depend on the parameter; */
     size_t factors, *of_mass, *of_rest; /* their exponents: in the denominator of M, and needed beyond it */
     const char *obstacle;
 } nh_parametric;
@@ -63,7 +63,7 @@ bool nh_parametric_singular(nh_parametric *family, nh_prime field, nh_residue la
 
 typedef struct {
     nh_jet_ring *ring;
-    size_t degree, second;   /* degrees in lambda and in mu */
+    size_t degree, second; /* degrees in lambda and in mu */
     /* residues of one coefficient: Q, then the fields, then the rates, as in graded_solver.h */
     size_t length;
     size_t fields_at, rates_at;

@@ -16,9 +16,8 @@ static void interpolate(nh_prime p, size_t count, const nh_residue *place, size_
         for (size_t k = count - 1; k >= step; k--) {
             nh_residue scale = nh_residue_inverse(p, nh_residue_sub(p, place[k], place[k - step]));
             for (size_t z = 0; z < length; z++)
-                value[k * length + z] = nh_residue_mul(p, scale,
-                                                       nh_residue_sub(p, value[k * length + z],
-                                                           value[(k - 1) * length + z]));
+                value[k * length + z] =
+                    nh_residue_mul(p, scale, nh_residue_sub(p, value[k * length + z], value[(k - 1) * length + z]));
         }
     for (size_t step = count - 1; step-- > 0;) /* Horner: multiply the higher part by (x - place[step]) */
         for (size_t k = step; k + 1 < count; k++)
@@ -132,8 +131,8 @@ static void divide_all(nh_parametric_series *s, nmod_mpoly_t content, nmod_mpoly
         nmod_mpoly_divides(e, e, content, ctx);
         for (size_t j = 0; j <= s->second; j++)
             for (size_t i = 0; i <= s->degree; i++)
-                s->coefficient[(j * (s->degree + 1) + i) * s->length + z]
-                    = (nh_residue)nmod_mpoly_get_coeff_ui_ui(e, (ulong[]){i, j}, ctx);
+                s->coefficient[(j * (s->degree + 1) + i) * s->length + z] =
+                    (nh_residue)nmod_mpoly_get_coeff_ui_ui(e, (ulong[]){i, j}, ctx);
     }
     shrink(s, s->degree - (size_t)nmod_mpoly_degree_si(content, 0, ctx),
            s->second - (size_t)nmod_mpoly_degree_si(content, 1, ctx));

@@ -17,10 +17,7 @@ static size_t entries(const nh_parametric *f)
     return equations(f) * f->linear->unknowns * (nh_parametric_kept(f) + 1);
 }
 
-size_t nh_parametric_linear_length(const nh_parametric *f, const nh_jet_ring *r)
-{
-    return (1 + entries(f)) * r->size;
-}
+size_t nh_parametric_linear_length(const nh_parametric *f, const nh_jet_ring *r) { return (1 + entries(f)) * r->size; }
 
 /* ---- expressions ---- */
 
@@ -113,8 +110,7 @@ static bool expressions(nh_parametric *f, const nh_jet_ring *r, nh_residue *out)
     size_t count = entries(f), e = r->size;
     nh_residue *clear = nh_alloc_array(2 * e, sizeof *clear);
     nh_jet_eval *v = evaluator(f, r);
-    bool good = multipliers(f, v, r, clear, out) && out[0]
-        && nh_jet_eval_all(v, count, f->entry, out + e);
+    bool good = multipliers(f, v, r, clear, out) && out[0] && nh_jet_eval_all(v, count, f->entry, out + e);
     for (size_t i = 1; i <= count && good; i++)
         if (!nh_jet_is_zero(r, out + i * e)) times(r, out + i * e, clear, clear + e);
     nh_jet_eval_free(v);

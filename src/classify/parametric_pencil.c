@@ -51,10 +51,10 @@ typedef struct {
     nh_residue *coefficient; /* in powers of lambda - origin, mu - origin */
     monomials alpha, beta;
     nh_parametric_variable variable[2];
-    int low[2], high[2];     /* lowest and highest power that occur, after scaling */
-    size_t poles;            /* degree of the scalar that everything is divided by; 0: there is none */
-    nh_residue *scalar;      /* poles + 1: monic */
-    size_t *slot, slots;     /* per row of the system: the index of its auxiliary equations */
+    int low[2], high[2]; /* lowest and highest power that occur, after scaling */
+    size_t poles;        /* degree of the scalar that everything is divided by; 0: there is none */
+    nh_residue *scalar;  /* poles + 1: monic */
+    size_t *slot, slots; /* per row of the system: the index of its auxiliary equations */
     nh_sparse_pencil *out;
 } assembly;
 
@@ -62,8 +62,8 @@ typedef struct {
 typedef struct {
     bool derivative;
     size_t index, at;
-    int shift[16];           /* the exponent that it adds to alpha */
-    int low[2], high[2];     /* powers that occur in it; low > high: none */
+    int shift[16];       /* the exponent that it adds to alpha */
+    int low[2], high[2]; /* powers that occur in it; low > high: none */
 } term;
 
 static nh_residue *coefficient_at(const assembly *x, size_t i, size_t j)
@@ -143,7 +143,7 @@ static int scaled_by(const assembly *x, const int *scale, const term *t)
 
 typedef struct {
     int low, high;
-    size_t constants[2];     /* terms that have the lowest power only, and the highest power only */
+    size_t constants[2]; /* terms that have the lowest power only, and the highest power only */
 } spread;
 
 static spread spread_of(const assembly *x, int v, size_t terms, const term *t, const int *scale)
@@ -209,8 +209,7 @@ static nh_residue singular_origin(assembly *x, int v, bool *scalar)
         for (size_t z = 0; z < x->r->size && nmod_poly_degree(common) != 0; z++) {
             nmod_poly_zero(e);
             for (size_t j = 0; j <= x->degree[v]; j++)
-                nmod_poly_set_coeff_ui(e, (slong)j,
-                                       (v ? coefficient_at(x, other, j) : coefficient_at(x, j, other))[z]);
+                nmod_poly_set_coeff_ui(e, (slong)j, (v ? coefficient_at(x, other, j) : coefficient_at(x, j, other))[z]);
             nmod_poly_gcd(common, common, e);
             if (nmod_poly_degree(e) > highest) highest = nmod_poly_degree(e);
         }
@@ -336,7 +335,7 @@ static void add_term(assembly *x, size_t power, bool rest, const term *t, const 
                 size_t u = t->derivative ? r->up[t->index * r->size + r->right[z]] : r->right[z];
                 if (!series[r->left[z]] || u == UINT32_MAX) continue;
                 size_t factor = t->derivative ? r->exponent[u * r->variables + t->index]
-                    : x->alpha.exponent[a * x->alpha.n + t->index];
+                                              : x->alpha.exponent[a * x->alpha.n + t->index];
                 nh_residue v = nh_residue_mul(r->field, series[r->left[z]], (nh_residue)factor);
                 if (!v) continue;
                 if (rest)
@@ -368,19 +367,26 @@ static void add_terms(assembly *x, size_t terms, const term *t)
 bool nh_parametric_pencil(const nh_parametric *f, const nh_parametric_series *s, size_t degree, nh_parity parity,
                           size_t most, nh_sparse_pencil *out, nh_parametric_variable *variable)
 {
-    static const nh_parity other[] = {[NH_ALL_DEGREES] = NH_ALL_DEGREES, [NH_EVEN_DEGREES] = NH_ODD_DEGREES,
-                                      [NH_ODD_DEGREES] = NH_EVEN_DEGREES};
+    static const nh_parity other[] = {
+        [NH_ALL_DEGREES] = NH_ALL_DEGREES, [NH_EVEN_DEGREES] = NH_ODD_DEGREES, [NH_ODD_DEGREES] = NH_EVEN_DEGREES};
     size_t n = f->counter.equations->n, fields = f->counter.equations->fields;
     if (n > 16) return false;
-    assembly x = {.s = s, .r = s->ring, .n = n, .fields = fields, .degree = {s->degree, s->second},
-                  .alpha = list(n, degree, parity), .beta = list(n, degree + 1, other[parity]), .out = out};
+    assembly x = {.s = s,
+                  .r = s->ring,
+                  .n = n,
+                  .fields = fields,
+                  .degree = {s->degree, s->second},
+                  .alpha = list(n, degree, parity),
+                  .beta = list(n, degree + 1, other[parity]),
+                  .out = out};
     x.coefficient = nh_alloc_array((s->degree + 1) * (s->second + 1) * s->length, sizeof *x.coefficient);
     x.scalar = nh_alloc_array((s->degree > s->second ? s->degree : s->second) + 1, sizeof *x.scalar);
     term *t = nh_alloc_array(fields * s->ring->variables + n * nh_jet_equations_monomials(n) + 1, sizeof *t);
     size_t terms = list_terms(&x, t);
     choose_variables(&x, terms, t);
     *out = (nh_sparse_pencil){.rows = x.beta.count * s->ring->first[s->ring->order],
-                              .columns = x.alpha.count * s->ring->size, .degree = (size_t)(x.high[0] - x.low[0]),
+                              .columns = x.alpha.count * s->ring->size,
+                              .degree = (size_t)(x.high[0] - x.low[0]),
                               .second = (size_t)(x.high[1] - x.low[1])};
     bool good = out->columns * (out->degree ? out->degree : 1) <= most;
     x.slot = nh_alloc_array(out->rows + 1, sizeof *x.slot);

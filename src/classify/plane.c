@@ -33,8 +33,8 @@ static void back(nh_residue_surface *x, int v, const nh_parametric_variable *var
             line[(k + root) * stride] = from[(variable->reciprocal ? D - k : k) * (v ? width : 1)];
         for (size_t i = 0; i < D + root && variable->origin; i++)
             for (size_t j = D + root; j-- > i;)
-                line[j * stride] = nh_residue_sub(f, line[j * stride],
-                                                  nh_residue_mul(f, variable->origin, line[(j + 1) * stride]));
+                line[j * stride] =
+                    nh_residue_sub(f, line[j * stride], nh_residue_mul(f, variable->origin, line[(j + 1) * stride]));
     }
     nh_free(x->coefficient);
     x->coefficient = c;
@@ -53,8 +53,7 @@ static nh_residue_surface singular(const nh_parametric_series *x)
 
 /* One determinant at one point, times Q. */
 static bool determinants(nh_classify_search *s, const nh_parametric_series *x, size_t degree, uint64_t seed,
-                         nh_plane_row *row,
-                         nh_residue_surface *out, nh_residue_surface *Q)
+                         nh_plane_row *row, nh_residue_surface *out, nh_residue_surface *Q)
 {
     nh_prime f = x->ring->field;
     nh_sparse_pencil pencil = {0};
@@ -118,9 +117,9 @@ static void clear(residues *r)
 
 static bool alike(const residues *r, const nh_common_curves *c)
 {
-    return !memcmp(r->special[0].degree, c->special.degree, sizeof c->special.degree)
-        && !memcmp(r->degenerate[0].degree, c->degenerate.degree, sizeof c->degenerate.degree)
-        && r->across[0].degree == c->across.degree;
+    return !memcmp(r->special[0].degree, c->special.degree, sizeof c->special.degree) &&
+           !memcmp(r->degenerate[0].degree, c->degenerate.degree, sizeof c->degenerate.degree) &&
+           r->across[0].degree == c->across.degree;
 }
 
 /* A prime at which the degrees differ is unlucky: the first one, when the second disagrees with it, otherwise the new
@@ -157,8 +156,8 @@ static void take_lines(nh_plane *o, size_t count, const nh_special_factor *facto
     for (size_t k = 0; k < count; k++) {
         const nh_special_factor *f = &factor[k];
         size_t at = 0, length = (f->degree + 1) * sizeof *f->coefficient;
-        while (at < o->lines && (o->line[at].across.degree != f->degree
-                                 || memcmp(o->line[at].across.coefficient, f->coefficient, length)))
+        while (at < o->lines && (o->line[at].across.degree != f->degree ||
+                                 memcmp(o->line[at].across.coefficient, f->coefficient, length)))
             at++;
         if (at < o->lines) continue;
         nh_grow(&o->line, &o->line_capacity, o->lines + 1, sizeof *o->line);
@@ -248,8 +247,7 @@ static bool curves_from_points(search *s, size_t degree, size_t prime, nh_plane_
     s->s.family.held = held;
     row->sections = count;
     if (!good) return false;
-    *out = (nh_common_curves){in_mu(found.special), in_mu(found.degenerate),
-                              {.coefficient = found.across.coefficient}};
+    *out = (nh_common_curves){in_mu(found.special), in_mu(found.degenerate), {.coefficient = found.across.coefficient}};
     return true;
 }
 
@@ -262,7 +260,7 @@ static bool find_zeros(search *s, size_t degree, bool from_points, nh_plane_row 
     for (size_t prime = 0; prime < NH_CLASSIFY_MOST_PRIMES && good && !row->lifted; prime++) {
         nh_common_curves curves = {.across = {0, NULL}};
         good = from_points ? curves_from_points(s, degree, prime, row, &curves)
-            : nh_plane_zeros(&s->s, degree, prime, row, &curves);
+                           : nh_plane_zeros(&s->s, degree, prime, row, &curves);
         if (!good) {
             nh_common_curves_clear(&curves);
             break;
@@ -278,8 +276,8 @@ static bool find_zeros(search *s, size_t degree, bool from_points, nh_plane_row 
 
 /* ---- numbers on curves and lines ---- */
 
-void nh_plane_count_curves(nh_classify_search *s, nh_classify_kind kind, size_t degree, size_t almost_all,
-                           size_t count, nh_plane_curve *curve)
+void nh_plane_count_curves(nh_classify_search *s, nh_classify_kind kind, size_t degree, size_t almost_all, size_t count,
+                           nh_plane_curve *curve)
 {
     for (size_t k = 0; k < count && !nh_late(); k++) {
         nh_plane_curve *c = &curve[k];

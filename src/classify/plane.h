@@ -20,7 +20,7 @@
 typedef struct {
     nh_special_surface polynomial;
     bool degenerate;
-    size_t first, open;      /* as in nh_classify_value */
+    size_t first, open; /* as in nh_classify_value */
     nh_classify_number number[NH_COUNT_HIGHEST_DEGREE + 1];
 } nh_plane_curve;
 
@@ -34,8 +34,8 @@ typedef struct {
 typedef struct {
     nh_classify_number number; /* for almost all values */
     size_t known, unknowns;
-    size_t power[2];         /* degrees of the linear system in lambda and mu */
-    size_t size;             /* degrees of the determinants */
+    size_t power[2]; /* degrees of the linear system in lambda and mu */
+    size_t size;     /* degrees of the determinants */
     bool lifted;
     size_t primes;
     uint64_t prime[NH_CLASSIFY_MOST_PRIMES];
@@ -50,7 +50,7 @@ typedef struct {
 
 /* A point that has more integrals than almost all points, and than almost all points of a curve on which it lies. */
 typedef struct {
-    size_t line, value;      /* one of the values that the classification of a line found */
+    size_t line, value; /* one of the values that the classification of a line found */
 } nh_plane_point;
 
 typedef struct {

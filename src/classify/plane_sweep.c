@@ -43,8 +43,8 @@ static double known_norm(const nh_plane_known *o, int64_t top, int64_t bottom, s
         double sum = 0;
         for (size_t i = 0; i <= c->degree[0]; i++)
             for (size_t j = 0; j <= c->degree[1]; j++)
-                sum += fabs((double)c->coefficient[j * (c->degree[0] + 1) + i]) * pow(fabs((double)top), (double)j)
-                    * pow((double)bottom, (double)(c->degree[1] - j));
+                sum += fabs((double)c->coefficient[j * (c->degree[0] + 1) + i]) * pow(fabs((double)top), (double)j) *
+                       pow((double)bottom, (double)(c->degree[1] - j));
         norm *= sum;
         *degree += c->degree[0];
     }

@@ -20,8 +20,8 @@ typedef struct {
     size_t count, capacity;
     nh_special_factor *line; /* lines that have to be classified (mu is a root of each); on the heap */
     size_t examined;
-    double height;           /* height of the pairs of rationals that the other lines cover */
-    bool curves;             /* there are more curves than are known: nothing was swept */
+    double height; /* height of the pairs of rationals that the other lines cover */
+    bool curves;   /* there are more curves than are known: nothing was swept */
 } nh_plane_sweep;
 
 /* Examines the lines of this degree up to this height, without the known ones.  False: a limit was reached or the run

@@ -10,7 +10,7 @@ enum { most_sections = 20, most_unlucky = 6 };
 
 /* Sections at several values, all of the same degrees. */
 typedef struct {
-    size_t count, used;      /* used: number of values taken, unlucky ones included */
+    size_t count, used; /* used: number of values taken, unlucky ones included */
     nh_residue value[most_sections];
     nh_common_curves at[most_sections];
 } sections;
@@ -20,9 +20,9 @@ static int64_t value_at(size_t index) { return 7919 + 1009 * (int64_t)index; }
 
 static bool alike(const nh_common_curves *a, const nh_common_curves *b)
 {
-    return !memcmp(a->special.degree, b->special.degree, sizeof a->special.degree)
-        && !memcmp(a->degenerate.degree, b->degenerate.degree, sizeof a->degenerate.degree)
-        && a->across.degree == b->across.degree;
+    return !memcmp(a->special.degree, b->special.degree, sizeof a->special.degree) &&
+           !memcmp(a->degenerate.degree, b->degenerate.degree, sizeof a->degenerate.degree) &&
+           a->across.degree == b->across.degree;
 }
 
 /* A section whose degrees differ is unlucky: the first one, when the second disagrees with it, otherwise the new
@@ -54,8 +54,8 @@ static bool more_sections(nh_prime f, nh_sections_look section, void *context, s
 
 nh_sections nh_sections_of(const nh_common_curves *c)
 {
-    return (nh_sections){c->special, c->degenerate,
-                         {.degree = {0, c->across.degree}, .coefficient = c->across.coefficient}};
+    return (nh_sections){
+        c->special, c->degenerate, {.degree = {0, c->across.degree}, .coefficient = c->across.coefficient}};
 }
 
 static bool interpolate(const sections *x, nh_prime f, nh_sections *out)
@@ -68,9 +68,9 @@ static bool interpolate(const sections *x, nh_prime f, nh_sections *out)
         degenerate[k] = at.degenerate;
         across[k] = at.across;
     }
-    bool good = nh_residue_surface_from(f, x->count, x->value, special, &out->special)
-        && nh_residue_surface_from(f, x->count, x->value, degenerate, &out->degenerate)
-        && nh_residue_surface_from(f, x->count, x->value, across, &out->across);
+    bool good = nh_residue_surface_from(f, x->count, x->value, special, &out->special) &&
+                nh_residue_surface_from(f, x->count, x->value, degenerate, &out->degenerate) &&
+                nh_residue_surface_from(f, x->count, x->value, across, &out->across);
     if (!good) nh_sections_clear(out);
     return good;
 }

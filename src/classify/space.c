@@ -229,9 +229,13 @@ static bool sweep(search *s, size_t degree, nh_plane_row *row, size_t height)
 
 static const char *end_of(const search *s, const nh_plane_row *row)
 {
-    return s->out->end ? s->out->end : s->s.family.obstacle ? s->s.family.obstacle : nh_late() ? "time"
-        : !row->number.bounded ? "work" : row->size > s->question.plane ? "plane"
-        : s->s.products < 0 ? "staircase" : "unknowns";
+    return s->out->end                     ? s->out->end
+           : s->s.family.obstacle          ? s->s.family.obstacle
+           : nh_late()                     ? "time"
+           : !row->number.bounded          ? "work"
+           : row->size > s->question.plane ? "plane"
+           : s->s.products < 0             ? "staircase"
+                                           : "unknowns";
 }
 
 static void run(search *s)
@@ -242,8 +246,8 @@ static void run(search *s)
         size_t degree = o->rows + 1;
         nh_classify_place any = {.kind = NH_CLASSIFY_ANY};
         nh_progress("integrals for almost all values", -1);
-        bool good = nh_classify_count(&s->s, degree, &any, 0, &row.known, &row.number)
-            && find_surfaces(s, degree, &row) && sweep(s, degree, &row, s->question.planes) && !nh_late();
+        bool good = nh_classify_count(&s->s, degree, &any, 0, &row.known, &row.number) &&
+                    find_surfaces(s, degree, &row) && sweep(s, degree, &row, s->question.planes) && !nh_late();
         if (!good) {
             o->end = end_of(s, &row);
             break;

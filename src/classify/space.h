@@ -25,7 +25,7 @@ typedef struct {
     nh_plane_curve *surface; /* special and degenerate ones, and ones on which A loses rank although there are not
                               * more integrals */
     nh_special_surface *wall;
-    nh_special_surface *plane; /* planes nu = a/b in which something else may be special */
+    nh_special_surface *plane;  /* planes nu = a/b in which something else may be special */
     const char *obstacle, *end; /* as in nh_classification */
 } nh_space;
 

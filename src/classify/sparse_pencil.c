@@ -18,7 +18,7 @@ typedef struct {
 typedef struct {
     /* number of rows that have a term in this column, and of those whose term depends on the parameters */
     size_t count, slopes;
-    size_t rows, capacity;   /* the list may hold rows that have no term here any more */
+    size_t rows, capacity; /* the list may hold rows that have no term here any more */
     uint32_t *row;
 } sparse_column;
 
@@ -113,7 +113,9 @@ static void open_sparse(sparse *s, const nh_sparse_pencil *p, nh_prime f)
     nh_sparse_entry *e;
     bool one = p->second == 0;
     size_t D = one && p->degree ? p->degree : 1, count = one ? linear_entries(p, f, &e) : sorted_entries(p, &e);
-    *s = (sparse){.f = f, .rows = p->rows + (D - 1) * p->columns, .columns = D * p->columns,
+    *s = (sparse){.f = f,
+                  .rows = p->rows + (D - 1) * p->columns,
+                  .columns = D * p->columns,
                   .powers = one ? 2 : (p->degree + 1) * (p->second + 1)};
     s->stride = 1 + s->powers;
     s->row = nh_alloc_array(s->rows + 1, sizeof *s->row);

@@ -18,8 +18,8 @@ typedef struct {
 typedef struct {
     size_t rows, columns, degree, entries, capacity;
     nh_sparse_entry *entry;
-    size_t second;           /* degree in mu; 0 where there is none */
-    size_t pivots;           /* of a reduced pencil: the number of pivots that were eliminated */
+    size_t second; /* degree in mu; 0 where there is none */
+    size_t pivots; /* of a reduced pencil: the number of pivots that were eliminated */
 } nh_sparse_pencil;
 
 /* Eliminates.  The result has one entry for each place and power, on the heap, with rows and columns renumbered.  With

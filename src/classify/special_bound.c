@@ -27,7 +27,7 @@ typedef struct {
     nh_dag *dag;
     size_t terms, capacity;
     term *term;
-    double whole;            /* D = whole lambda^(power) q^(at) sin(q)^(sine) cos(q)^(cosine) */
+    double whole; /* D = whole lambda^(power) q^(at) sin(q)^(sine) cos(q)^(cosine) */
     int64_t power, at[most_variables], sine[most_variables], cosine[most_variables];
     int64_t turns[most_variables]; /* the highest degree in sin(q_k) and cos(q_k), of D too */
 } bound;
@@ -96,9 +96,9 @@ static bool add_component(bound *b, nh_forms *forms, nh_arena *arena, nh_ex e, b
     size_t first = b->terms;
     term blank = {.derivative = derivative, .index = index};
     if (nh_is_zero(b->dag, e)) return true;
-    bool good = nh_form_make(forms, e, true, &form) == NH_FIELD_FINE
-        && nh_pieces_make(form.field, arena, form.value, false, &p) && p.factors < 2
-        && (p.factors == 0 || p.factor[0].power == 1);
+    bool good = nh_form_make(forms, e, true, &form) == NH_FIELD_FINE &&
+                nh_pieces_make(form.field, arena, form.value, false, &p) && p.factors < 2 &&
+                (p.factors == 0 || p.factor[0].power == 1);
     if (good && p.factors == 0) good = add_term(b, &form, &p, NULL, 0, blank);
     for (size_t i = 0; good && p.factors && i < p.factor[0].terms; i++)
         good = add_term(b, &form, &p, &p.factor[0], i, blank);

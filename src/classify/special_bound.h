@@ -24,7 +24,7 @@
 typedef struct {
     /* log2 of an upper bound for the leading coefficient and Mahler's measure of D(q0, lambda) m(lambda) */
     double bits;
-    double degree;           /* an upper bound for its degree */
+    double degree; /* an upper bound for its degree */
 } nh_special_bound;
 
 /* The bound for the equations of this degree and parity up to the weight order - 1, at these whole coordinates, none of

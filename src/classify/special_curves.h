@@ -12,15 +12,15 @@
  * with whole coefficients without common factor. */
 typedef struct {
     size_t degree[3];
-    int64_t *coefficient;    /* on the heap */
+    int64_t *coefficient; /* on the heap */
 } nh_special_surface;
 typedef nh_special_surface nh_special_curve; /* degree[2] is 0 without nu */
 
 typedef struct {
-    bool lifted;             /* one more prime confirmed the result */
-    size_t surfaces;         /* or curves */
+    bool lifted;     /* one more prime confirmed the result */
+    size_t surfaces; /* or curves */
     nh_special_surface *surface;
-    double norm;             /* sum of the absolute values of the coefficients of their product */
+    double norm; /* sum of the absolute values of the coefficients of their product */
 } nh_special_surfaces;
 
 /* Lifts monic polynomials of the same degrees, given modulo several primes. */

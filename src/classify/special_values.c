@@ -194,9 +194,8 @@ bool nh_residue_polynomial_root(const nh_residue_polynomial *of, nh_prime f, nh_
     if (nmod_poly_degree(p) == (slong)of->degree && of->degree) nmod_poly_factor(parts, p);
     for (slong k = 0; k < parts->num; k++) {
         if (nmod_poly_degree(parts->p + k) != 1) continue;
-        nh_residue top = (nh_residue)nmod_poly_get_coeff_ui(parts->p + k,
-                                                            1), bottom = (nh_residue)nmod_poly_get_coeff_ui(parts->p
-                                                                + k, 0);
+        nh_residue top = (nh_residue)nmod_poly_get_coeff_ui(parts->p + k, 1),
+                   bottom = (nh_residue)nmod_poly_get_coeff_ui(parts->p + k, 0);
         nh_residue x = nh_residue_negative(f, nh_residue_mul(f, bottom, nh_residue_inverse(f, top)));
         if (!found || x < *root) *root = x;
         found = true;

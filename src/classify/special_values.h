@@ -21,14 +21,14 @@ void nh_special_roots_clear(nh_special_roots *roots);
 /* A factor irreducible over Q: whole coefficients without common factor, the highest one positive. */
 typedef struct {
     size_t degree;
-    int64_t *coefficient;    /* degree + 1, from the constant term on; on the heap */
+    int64_t *coefficient; /* degree + 1, from the constant term on; on the heap */
 } nh_special_factor;
 
 typedef struct {
-    bool lifted;             /* one more prime confirmed the result */
+    bool lifted; /* one more prime confirmed the result */
     size_t factors;
     nh_special_factor *factor;
-    double norm;             /* sum of the absolute values of the coefficients of their product */
+    double norm; /* sum of the absolute values of the coefficients of their product */
 } nh_special_factors;
 
 /* Lifts monic polynomials of one degree, given modulo several primes. */

@@ -12,7 +12,7 @@
 
 /* The coefficients of the powers of the parameter, the constant one first. */
 typedef struct {
-    size_t count, used;      /* used: rank that was eliminated from them */
+    size_t count, used; /* used: rank that was eliminated from them */
     nmod_mat_t *m;
 } matrices;
 
@@ -97,8 +97,8 @@ static void substitute_in(nmod_mat_t M, const nmod_mat_t C, slong pivots, const 
 static void use_constants(matrices *x, const nmod_mat_t C, slong rank)
 {
     slong columns = nmod_mat_ncols(C), opens = 0;
-    slong *pivot = nh_alloc_array((size_t)rank + 1, sizeof *pivot), *open = nh_alloc_array((size_t)columns + 1,
-        sizeof *open);
+    slong *pivot = nh_alloc_array((size_t)rank + 1, sizeof *pivot),
+          *open = nh_alloc_array((size_t)columns + 1, sizeof *open);
     for (slong j = 0, i = 0; j < columns; j++) {
         if (i < rank && nmod_mat_entry(C, i, j)) pivot[i++] = j;
         else open[opens++] = j;
@@ -188,9 +188,11 @@ static void reduce(matrices *x, double *products)
     constant_rows(x);
     for (bool changed = true; changed && rows_of(x) && columns_of(x) && *products >= 0 && !nh_late();) {
         slong rows = rows_of(x), columns = columns_of(x);
-        while (row_step(x, products) > 0) {}
+        while (row_step(x, products) > 0) {
+        }
         transpose(x);
-        while (row_step(x, products) > 0) {}
+        while (row_step(x, products) > 0) {
+        }
         transpose(x);
         changed = rows_of(x) != rows || columns_of(x) != columns;
     }
@@ -242,7 +244,10 @@ nh_staircase_matrices nh_staircase_reduce(const nh_sparse_pencil *p, nh_prime f,
     size_t degree;
     matrices x = reduced(p, f, products, &degree);
     size_t rows = (size_t)rows_of(&x), columns = (size_t)columns_of(&x), at = 0;
-    nh_staircase_matrices out = {.degree = degree, .second = p->second, .rows = rows, .columns = columns,
+    nh_staircase_matrices out = {.degree = degree,
+                                 .second = p->second,
+                                 .rows = rows,
+                                 .columns = columns,
                                  .entry = nh_alloc_array(x.count * rows * columns + 1, sizeof *out.entry)};
     for (size_t k = 0; k < x.count; k++)
         for (size_t i = 0; i < rows; i++)
@@ -256,8 +261,8 @@ size_t nh_staircase_rank(const nh_sparse_pencil *p, nh_prime f, nh_residue lambd
     nmod_mat_t m;
     nmod_mat_init(m, (slong)p->rows, (slong)p->columns, f.p);
     for (size_t k = 0; k < p->entries; k++)
-        add_to(m, p->entry[k].row, p->entry[k].column, nh_residue_mul(f, p->entry[k].value,
-            nh_residue_power(f, lambda, p->entry[k].power)));
+        add_to(m, p->entry[k].row, p->entry[k].column,
+               nh_residue_mul(f, p->entry[k].value, nh_residue_power(f, lambda, p->entry[k].power)));
     size_t rank = (size_t)nmod_mat_rank(m);
     nmod_mat_clear(m);
     return rank;

@@ -61,16 +61,40 @@ static bool takes(const nh_cli *cli, const char *option)
  * NULL. */
 static const char *named_elsewhere(const nh_cli *cli, const char *word)
 {
-    static const char *const others[][3] = {
-        {"language", "to"},          {"lang", "to"},         {"target", "to"},          {"format", "to", "svg"},
-        {"png", "svg", "output"},    {"plot", "svg", "output"}, {"figure", "svg", "output"},
-        {"picture", "svg", "output"}, {"param", "set"},      {"params", "set"},         {"parameter", "set"},
-        {"parameters", "set"},       {"time", "until"},      {"tend", "until"},         {"tmax", "until"},
-        {"t", "until"},              {"duration", "until"},  {"dt", "step"},            {"x0", "initial"},
-        {"state", "initial"},        {"solver", "method"},   {"integrator", "method"},  {"file", "output"},
-        {"dir", "output"},           {"rtol", "tolerance"},   {"eps", "tolerance"},      {"report", "html"},
-        {"timeout", "max-seconds"},   {"sweep", "over"},      {"vary", "over"},         {"range", "over"},
-        {"grid", "over"},             {"inputs", "input"},    {"control", "input"}};
+    static const char *const others[][3] = {{"language", "to"},
+                                            {"lang", "to"},
+                                            {"target", "to"},
+                                            {"format", "to", "svg"},
+                                            {"png", "svg", "output"},
+                                            {"plot", "svg", "output"},
+                                            {"figure", "svg", "output"},
+                                            {"picture", "svg", "output"},
+                                            {"param", "set"},
+                                            {"params", "set"},
+                                            {"parameter", "set"},
+                                            {"parameters", "set"},
+                                            {"time", "until"},
+                                            {"tend", "until"},
+                                            {"tmax", "until"},
+                                            {"t", "until"},
+                                            {"duration", "until"},
+                                            {"dt", "step"},
+                                            {"x0", "initial"},
+                                            {"state", "initial"},
+                                            {"solver", "method"},
+                                            {"integrator", "method"},
+                                            {"file", "output"},
+                                            {"dir", "output"},
+                                            {"rtol", "tolerance"},
+                                            {"eps", "tolerance"},
+                                            {"report", "html"},
+                                            {"timeout", "max-seconds"},
+                                            {"sweep", "over"},
+                                            {"vary", "over"},
+                                            {"range", "over"},
+                                            {"grid", "over"},
+                                            {"inputs", "input"},
+                                            {"control", "input"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         for (size_t k = 1; k < 3 && others[i][k]; k++)
             if (!strcmp(word, others[i][0]) && takes(cli, others[i][k])) return others[i][k];

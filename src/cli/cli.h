@@ -17,12 +17,12 @@ typedef struct {
     const char *command;
     size_t operands;
     const char **operand;
-    nh_request ask;              /* commands that compute something */
-    const char *analysis;        /* by name or path, or NULL */
+    nh_request ask;       /* commands that compute something */
+    const char *analysis; /* by name or path, or NULL */
     bool no_analysis;
-    const char *json;            /* files; "-": standard output */
+    const char *json; /* files; "-": standard output */
 #define X(name, form, writer) const char *name;
-    NH_PEN_FORM_TABLE(X)         /* likewise */
+    NH_PEN_FORM_TABLE(X) /* likewise */
 #undef X
     const char *svg, *pdf, *csv; /* pictures and tables */
     const char *wrote;           /* names of the folder's files, separated by commas */
@@ -31,11 +31,11 @@ typedef struct {
     const char *like;            /* of `new`: the system to begin with, or NULL */
     nh_cli_progress progress;
     bool quiet, verbose, colour, help;
-    bool terminal;               /* standard output is one */
-    nh_output_set files;         /* output files that are written and not yet in their places */
-    size_t figures;              /* of the page, written to the folder */
-    bool drawn;                  /* they were */
-    bool wordless;               /* the folder has no summary in words */
+    bool terminal;       /* standard output is one */
+    nh_output_set files; /* output files that are written and not yet in their places */
+    size_t figures;      /* of the page, written to the folder */
+    bool drawn;          /* they were */
+    bool wordless;       /* the folder has no summary in words */
     nh_arena *arena;
 } nh_cli;
 

@@ -14,7 +14,8 @@ bool nh_word_among(const char *words, const char *word)
 
 const char *nh_cli_command_name(const char *word)
 {
-#define X(old, name) if (!strcmp(word, old)) return name;
+#define X(old, name)                                                                                                   \
+    if (!strcmp(word, old)) return name;
     NH_CLI_OLD_COMMAND_TABLE(X)
 #undef X
     return word;
@@ -27,7 +28,7 @@ const char *nh_cli_command_near(const char *word)
         NH_CLI_COMMAND_TABLE(X)
 #undef X
 #define X(old, name) old,
-        NH_CLI_OLD_COMMAND_TABLE(X)
+            NH_CLI_OLD_COMMAND_TABLE(X)
 #undef X
     };
     const char *near = nh_text_nearest(word, names, sizeof names / sizeof *names);

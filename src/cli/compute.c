@@ -29,8 +29,9 @@ static bool open_files(nh_cli *cli, nh_error *error)
     if (takes && cli->analysis && !nh_request_analysis(q, cli->analysis, error)) return false;
     const char *word = cli->operands ? cli->operand[0] : q->analysis_path ? nh_request_subject(q, error) : NULL;
     if (error->code != NH_OK) return false;
-    if (!word) return lacks(error, "`nhsym analyze` needs a system or an analysis file",
-                            "nhsym analyze sleigh, or nhsym analyze mine.yaml");
+    if (!word)
+        return lacks(error, "`nhsym analyze` needs a system or an analysis file",
+                     "nhsym analyze sleigh, or nhsym analyze mine.yaml");
     if (!nh_cli_system(cli, word, error)) return false;
     if (takes && !q->analysis_path && !cli->no_analysis) nh_request_usual_analysis(q, word);
     return true;
@@ -81,7 +82,8 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
     if (cli->operands > 1) return one_system(cli, "nhsym verify sleigh --current \"m*v\"", error), NH_USAGE;
     if (cli->operands != 1 || !cli->ask.current == !cli->ask.field)
         return lacks(error, "`nhsym verify` needs one system and either --current or --field",
-                     "nhsym verify sleigh --current \"m*v\", or --field \"Z0=1; phi=phi'; x=x'\""), NH_USAGE;
+                     "nhsym verify sleigh --current \"m*v\", or --field \"Z0=1; phi=phi'; x=x'\""),
+               NH_USAGE;
     return documented(cli, error);
 }
 
@@ -119,8 +121,9 @@ static bool one_table(const nh_cli *cli, nh_error *error)
     if (!q->table && !q->overs) return true;
     if (q->table && q->overs)
         return lacks(error, "--initial-table, and --over as well", "write the values of --over into the table");
-    const char *document = nh_cli_wants_document(cli),
-               *other = q->ensemble ? "ensemble" : cli->folder ? "output" : document;
+    const char *document = nh_cli_wants_document(cli), *other = q->ensemble   ? "ensemble"
+                                                                : cli->folder ? "output"
+                                                                              : document;
     if (!other) return true;
     nh_fail(error, NH_USAGE, "", "--%s, and --%s as well", q->overs ? "over" : "initial-table", other);
     return nh_error_hint(error, "several motions are one table (--csv), one picture (--svg) or one JSON");
@@ -131,8 +134,9 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     if (!one_system(cli, "nhsym simulate sleigh --initial \"omega=2\" --until 10", error)) return NH_USAGE;
     if (cli->ask.input)
         return nh_fail(error, NH_USAGE, "", "--input needs NAME=EXPR, found `%s`", cli->ask.input),
-               nh_error_hint(error, strstr(cli->ask.input, ".csv") ? "a column of a table: --input \"u=%s:COLUMN\""
-                                                                   : "for example: --input \"%s=sin(t)\"",
+               nh_error_hint(error,
+                             strstr(cli->ask.input, ".csv") ? "a column of a table: --input \"u=%s:COLUMN\""
+                                                            : "for example: --input \"%s=sin(t)\"",
                              cli->ask.input),
                NH_USAGE;
     if (!one_table(cli, error)) return NH_USAGE;
@@ -165,10 +169,12 @@ int nh_cli_scan(nh_cli *cli, nh_error *error)
 {
     nh_request *q = &cli->ask;
     if (cli->operands != 1 || !q->overs || !cli->folder)
-        return lacks(error, cli->operands != 1 ? "scan which system?"
-                            : !q->overs        ? "scan over which values of which parameter?"
-                                               : "into which folder?",
-                     "nhsym scan sleigh --over k=1:4:61 -o DIR"), NH_USAGE;
+        return lacks(error,
+                     cli->operands != 1 ? "scan which system?"
+                     : !q->overs        ? "scan over which values of which parameter?"
+                                        : "into which folder?",
+                     "nhsym scan sleigh --over k=1:4:61 -o DIR"),
+               NH_USAGE;
     q->program = nh_cli_program();
     q->begin_worker = nh_cli_guard_worker;
     if (!begin(cli, error) || !nh_cli_can_write(cli, error)) return error->code;

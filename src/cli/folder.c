@@ -32,7 +32,8 @@ bool nh_cli_use_folder(nh_cli *cli, nh_error *error)
     if (!cli->folder) return true;
     if (!nh_cli_make_folder(cli, error)) return false;
     if (!cli->json) cli->json = nh_cli_in_folder(cli, "result.json");
-#define X(name, form, writer) if (!cli->name) cli->name = nh_cli_in_folder(cli, "report." #name);
+#define X(name, form, writer)                                                                                          \
+    if (!cli->name) cli->name = nh_cli_in_folder(cli, "report." #name);
     NH_PEN_FORM_TABLE(X)
 #undef X
     return true;

@@ -210,7 +210,8 @@ static bool is_file(const option_word *o)
 
 /* The names of the system on the command line, for the part of the word behind its last comma; outside of quotes a
  * prime needs a backslash. */
-static const char bash_names[] = "# bash completion for nhsym; written by `nhsym help bash`\n"
+static const char bash_names[] =
+    "# bash completion for nhsym; written by `nhsym help bash`\n"
     "_nhsym_names() {\n"
     "    local word=${COMP_WORDS[COMP_CWORD]} each name names=\"\" begin end\n"
     "    for each in \"${COMP_WORDS[@]:2:COMP_CWORD-2}\"; do\n"

@@ -14,9 +14,9 @@ enum { tag_ask = 1, tag_answer = 2 };
 
 typedef struct {
     int rank, size;
-    bool served;              /* rank 0 has the thread */
-    atomic_size_t next;       /* rank 0: the next unit */
-    size_t mine;              /* without thread: how many this rank had */
+    bool served;        /* rank 0 has the thread */
+    atomic_size_t next; /* rank 0: the next unit */
+    size_t mine;        /* without thread: how many this rank had */
     atomic_bool done;
     pthread_t server;
 } team;

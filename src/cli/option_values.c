@@ -22,9 +22,7 @@ static bool assignment(nh_cli *cli, const char *text, const char *option, char *
         bool number = nh_text_to_number(text, &half);
         if (number && last && !last->input && !strcmp(option, "set")) /* g=9,81 */
             return nh_error_hint(error, "use a decimal point: --set %s=%g.%s", last->name, last->value, text);
-        return number
-                   ? nh_error_hint(error, "commas stand between values, and decimals behind a point: 0.5")
-                   : false;
+        return number ? nh_error_hint(error, "commas stand between values, and decimals behind a point: 0.5") : false;
     }
     size_t length = (size_t)(equal - text);
     while (length && text[length - 1] == ' ') length--;
@@ -215,22 +213,32 @@ static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
 /* Texts that were read are kept, so a pipe will do. */
 const char *nh_option_value_file(const char *word) { return strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
 
+/* The file that an option names, NULL: it names none. */
 static const char **output_of(nh_cli *cli, int code)
 {
-    return code == opt_svg ? &cli->svg : code == opt_pdf ? &cli->pdf : &cli->csv;
+    return code == opt_svg ? &cli->svg : code == opt_pdf ? &cli->pdf : code == opt_csv ? &cli->csv : NULL;
 }
 
-#define X(name, form, writer) case opt_##name: cli->name = value; return true;
+/* Numerical options (docs/options.md) that have a name of their own on the command line. */
+static bool is_numerical(int code)
+{
+    return code == opt_seed || code == opt_samples || code == opt_tolerance || code == opt_until ||
+           code == opt_threads || code == opt_columns || code == opt_degree;
+}
+
+#define X(name, form, writer)                                                                                          \
+    case opt_##name: cli->name = value; return true;
 bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *value, nh_error *error)
 {
+    const char **output = output_of(cli, code);
+    if (output) return *output = value, true;
+    if (is_numerical(code)) return nh_request_option(&cli->ask, name, value, error);
     switch (code) {
     case opt_set: return each(cli, value, "set", set_parameter, error);
-    case opt_seed: case opt_samples: case opt_tolerance: case opt_until:
-    case opt_threads: case opt_columns: case opt_degree:
-        return nh_request_option(&cli->ask, name, value, error);
     case opt_max_seconds: return nh_request_option(&cli->ask, "max_seconds", value, error);
     case opt_max_memory: return size(value, &cli->ask.options.max_memory, error);
-    case opt_at: case opt_initial: cli->ask.initial = joined(cli, cli->ask.initial, value); return true;
+    case opt_at:
+    case opt_initial: cli->ask.initial = joined(cli, cli->ask.initial, value); return true;
     case opt_initial_table: cli->ask.table = nh_option_value_file(value); return true;
     case opt_method: return nh_request_methods(&cli->ask, value, error);
     case opt_project: return cli->ask.project = true;
@@ -241,12 +249,12 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
     case opt_wheel: return each(cli, value, "wheel", add_wheel, error);
     case opt_on: return each(cli, value, "on", add_level, error);
     case opt_base: cli->ask.base = value; return true;
-    case opt_name: case opt_like: *(code == opt_like ? &cli->like : &cli->ask.name) = value; return true;
+    case opt_name:
+    case opt_like: *(code == opt_like ? &cli->like : &cli->ask.name) = value; return true;
     case opt_watch: cli->ask.watch = joined(cli, cli->ask.watch, value); return true;
     case opt_event: cli->ask.event = also(cli, cli->ask.event, value); return true;
     case opt_section: cli->ask.section = value; return true;
     case opt_axes: cli->ask.axes = value; return true;
-    case opt_svg: case opt_pdf: case opt_csv: *output_of(cli, code) = value; return true;
     case opt_budget: return seconds(value, &cli->ask.budget, error);
     case opt_accuracy: return positive(value, "accuracy", &cli->ask.accuracy, error);
     case opt_ensemble: return members(value, &cli->ask.ensemble, error);
@@ -269,8 +277,7 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
     case opt_velocities: return nh_request_velocities(&cli->ask, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
     case opt_progress: return set_progress(cli, value, error);
-    case 'o': return set_folder(cli, value, error);
-    NH_PEN_FORM_TABLE(X)
+    case 'o': return set_folder(cli, value, error); NH_PEN_FORM_TABLE(X)
     case opt_fragment: return cli->fragment = true;
     case opt_analysis: cli->analysis = value; return true;
     case opt_no_analysis: return cli->no_analysis = true;

@@ -28,7 +28,7 @@ static int convert(FILE *svg, FILE *pdf)
     pid_t child;
     int status = 0;
     setenv("SOURCE_DATE_EPOCH", "0", 0); /* no date of today in the file */
-    sigemptyset(&none); /* this thread may block signals that another one handles */
+    sigemptyset(&none);                  /* this thread may block signals that another one handles */
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
     posix_spawnattr_setsigmask(&attributes, &none);

@@ -9,7 +9,7 @@
 
 enum { widest = 60 };
 
-static bool live; /* one line that is rewritten, on a terminal */
+static bool live;          /* one line that is rewritten, on a terminal */
 static double begun, told; /* seconds */
 static char last[widest + 1];
 

@@ -23,7 +23,8 @@ static void list_outputs(const nh_cli *cli, destination to[outputs])
 
 const char *nh_cli_wants_document(const nh_cli *cli)
 {
-#define X(name, form, writer) if (cli->name) return #name;
+#define X(name, form, writer)                                                                                          \
+    if (cli->name) return #name;
     NH_PEN_FORM_TABLE(X)
 #undef X
     return NULL;

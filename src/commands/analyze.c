@@ -160,9 +160,9 @@ static void conclude(nh_analysis *r)
 {
     bool kept_out = r->search == NH_SEARCH_CUT || (r->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(r)),
          open = r->open > 0 || kept_out || nh_analysis_by_trial(r), failed = r->count == 0 && r->current.dimension > 0;
-    r->verdict = r->count || nh_analysis_to_the_end(r)   ? NH_FOUND
-                 : open || failed || r->pieces ? NH_UNDECIDED
-                                               : NH_NONE;
+    r->verdict = r->count || nh_analysis_to_the_end(r) ? NH_FOUND
+                 : open || failed || r->pieces         ? NH_UNDECIDED
+                                                       : NH_NONE;
     if (r->count == 0 && kept_out)
         nh_analysis_warn(r, "stages beyond a limit may contain further currents%s",
                          nh_analysis_left_out(r) ? ": the list of stages names the options to raise" : "");

@@ -45,10 +45,10 @@ static void refute(nh_analysis *r, nh_stated *s, const nh_verification *v)
     bool rounded = v->proof.digits >= digits_of_a_number;
     nh_analysis_warn(r, "the system file calls `%s` a current: it is none%s%s%s%s", s->name,
                      s->state ? nh_arena_printf(r->arena, ", its rate is %.6g in the state ", s->rate) : "",
-                     s->state ? state_in_words(r, s->state) : "",
-                     s->state ? "" : ", its rate cancels to few digits",
+                     s->state ? state_in_words(r, s->state) : "", s->state ? "" : ", its rate cancels to few digits",
                      rounded ? nh_arena_printf(r->arena, "; its rate cancels to %.0f digits: are its numbers rounded?",
-                                               floor(v->proof.digits)) : "");
+                                               floor(v->proof.digits))
+                             : "");
 }
 
 static void confirm(nh_analysis *r, nh_stated *s, const nh_verification *v)

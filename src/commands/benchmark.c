@@ -10,7 +10,7 @@ static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 static const double step_ratio = 4; /* factor between fixed steps of consecutive levels */
 /* part of a final time, no eighth of which was reached, that is tried next */
 static const double least_part = 1.0 / 64;
-static const double share_of_fits = 0.25;              /* part of the budget for the discrete problem */
+static const double share_of_fits = 0.25; /* part of the budget for the discrete problem */
 
 const char *nh_run_record_status_name(nh_run_record_status status)
 {
@@ -162,8 +162,8 @@ static void choose_currents(nh_benchmark_work *c)
     size_t n = y->currents;
     const char **why = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *why);
     c->held = nh_arena_alloc(c->out->arena, (n + 1) * sizeof *c->held);
-    nh_projection_choose(c->model, n, y->current, y->times[0], y->times[NH_BENCHMARK_OUTPUTS - 1],
-                         c->formulation[0].z0, why);
+    nh_projection_choose(c->model, n, y->current, y->times[0], y->times[NH_BENCHMARK_OUTPUTS - 1], c->formulation[0].z0,
+                         why);
     for (size_t k = 0; k < n; k++) {
         if (!why[k]) c->held[c->held_currents++] = y->current[k];
         else nh_benchmark_work_refuse(c, nh_arena_printf(c->out->arena, "projection onto %s", y->name[k]), why[k]);
@@ -327,8 +327,8 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
     out->begin = c->initial.t;
     for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++)
         c->solution.times[i] = i + 1 == NH_BENCHMARK_OUTPUTS
-                               ? out->end
-                               : out->begin + (out->end - out->begin) * (double)i / (NH_BENCHMARK_OUTPUTS - 1);
+                                   ? out->end
+                                   : out->begin + (out->end - out->begin) * (double)i / (NH_BENCHMARK_OUTPUTS - 1);
     if (!(fabs(out->end - out->begin) > 0))
         return nh_fail(error, NH_USAGE, "", "the motion ends where it begins (t = %g)", out->end);
     size_t known = c->model->system->currents;

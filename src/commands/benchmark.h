@@ -14,10 +14,10 @@ typedef enum { NH_ACCURATE, NH_FLAGGED, NH_DETECTED, NH_FAILED, NH_TIMEOUT, NH_U
 
 typedef struct {
     const char *method, *formulation;
-    double tolerance, step;      /* one of them is NAN */
-    double error, worst_drift;   /* NAN where they are not known */
-    double *drift;               /* drift of each current */
-    double seconds;              /* the least time of some repetitions, without preparation */
+    double tolerance, step;    /* one of them is NAN */
+    double error, worst_drift; /* NAN where they are not known */
+    double *drift;             /* drift of each current */
+    double seconds;            /* the least time of some repetitions, without preparation */
     long evaluations;
     /* for a method with fixed step: its theoretical order, else 0; and the order observed between this step and the
      * larger one before, NAN where the errors do not show it */
@@ -27,8 +27,8 @@ typedef struct {
     /* a run of reduced equations, which compute less: the error is that of its own states, and it does not count for
      * `front` */
     bool reduced;
-    bool front;                  /* no measured run is both faster and more accurate */
-    const char *note;            /* why it failed, or empty */
+    bool front;       /* no measured run is both faster and more accurate */
+    const char *note; /* why it failed, or empty */
 } nh_run_record;
 
 /* The Jacobian of the equations of motion at the chart's probes. */
@@ -48,40 +48,40 @@ typedef struct {
     const char *basis, *route, *solver;
     /* number of independent columns; dimension of the null space; the same by the most careful method */
     size_t rank, dimension, wanted;
-    double gap;                  /* gap of the spectrum above the null values */
+    double gap; /* gap of the spectrum above the null values */
     /* distance of the known currents from the null space, at points that were not used; NAN: none is in the span */
     double error;
-    double seconds;              /* seconds for rows and solution, without sampling */
+    double seconds; /* seconds for rows and solution, without sampling */
     bool good, undecided, right, front;
 } nh_fitted;
 
 struct nh_benchmark {
     nh_arena *arena;
-    nh_simulation *question;     /* owns system, model and analysis file */
-    size_t methods;              /* limits the comparison to these methods; 0: all */
+    nh_simulation *question; /* owns system, model and analysis file */
+    size_t methods;          /* limits the comparison to these methods; 0: all */
     const nh_method *const *only;
     /* robustness maps, or NULL; in an arena of their own, which nh_benchmark_free frees */
     const struct nh_robustness *maps;
     nh_arena *of_maps;
     double begin, end;
     const char *reference, *second;
-    double agreement;            /* largest difference of the two references: smaller errors mean nothing */
+    double agreement; /* largest difference of the two references: smaller errors mean nothing */
     size_t currents;
-    const char **current;        /* names */
+    const char **current; /* names */
     size_t count, capacity;
-    nh_run_record *item;           /* ordered by method and formulation, the loosest tolerance first */
+    nh_run_record *item; /* ordered by method and formulation, the loosest tolerance first */
     size_t derivatives;
     nh_derivative *derivative;
     size_t fits;
-    nh_fitted *fit;              /* ordered by number of functions and of samples */
-    bool fits_partial;           /* there was no time for all of them */
+    nh_fitted *fit;    /* ordered by number of functions and of samples */
+    bool fits_partial; /* there was no time for all of them */
     size_t refused;
-    const char **refusal;        /* "energy-preserving: it would converge ..." */
-    bool partial;                /* the budget ended it */
+    const char **refusal; /* "energy-preserving: it would converge ..." */
+    bool partial;         /* the budget ended it */
     /* the two references do not agree well enough (options.benchmark_trusted): errors then say little, and no run
      * counts as accurate */
     bool doubtful;
-    bool shortened;              /* the motion did not reach the default final time, and a shorter one was taken */
+    bool shortened; /* the motion did not reach the default final time, and a shorter one was taken */
 };
 
 /* Compares the integrators; the caller frees the result.  `budget`: seconds for the measurements.  NULL with a message

@@ -13,14 +13,14 @@
 enum { exact_derivatives, complex_step, forward, central_differences, extrapolated, kinds };
 static const char *const names[kinds] = {"exact, from the graph", "complex step", "forward differences",
                                          "central differences", "central differences, extrapolated"};
-static const double tiny = 1e-100; /* the complex step */
+static const double tiny = 1e-100;         /* the complex step */
 static const double enough_seconds = 2e-3; /* repetitions stop after so many seconds */
 
 typedef struct {
     nh_flow_problem problem;
     size_t n;
     double *z, *low, *high, *coarse, *size;
-    const nh_tape *tape;   /* for the complex step; NULL where implicit velocities would have to be solved for */
+    const nh_tape *tape; /* for the complex step; NULL where implicit velocities would have to be solved for */
     double complex *work, *in, *out;
     long evaluations;
 } differences;

@@ -30,10 +30,10 @@ typedef struct {
     nh_options options;
     nh_points *ranges, *heldout;
     nh_ansatz *cheb, *raw;
-    size_t known;      /* known currents in the span of the ansatz */
-    double *value;     /* their values at the held-out points, heldout x known */
+    size_t known;  /* known currents in the span of the ansatz */
+    double *value; /* their values at the held-out points, heldout x known */
     double deadline;
-    size_t wanted[2];  /* dimension by route: the columns of the symmetry route span more */
+    size_t wanted[2]; /* dimension by route: the columns of the symmetry route span more */
 } fit;
 
 /* ---- one ansatz, in two bases ---- */
@@ -78,7 +78,7 @@ static void find_known(fit *f)
 typedef struct {
     nh_nullspace *space;
     size_t columns;
-    nh_ex *e;      /* the current of each column */
+    nh_ex *e; /* the current of each column */
     double seconds;
 } solved;
 

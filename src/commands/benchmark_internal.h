@@ -18,14 +18,14 @@ enum {
 
 typedef struct {
     const char *name;
-    nh_model *model;        /* NULL: all coordinates (q, v) */
+    nh_model *model; /* NULL: all coordinates (q, v) */
     nh_dynamics *dynamics;
     nh_bordered *bordered;
-    nh_programs *programs;  /* of the model: for methods with a fixed step, compiled once for all runs */
+    nh_programs *programs; /* of the model: for methods with a fixed step, compiled once for all runs */
     size_t size;
     double *z0, *scale;
     nh_flow_problem problem;
-    bool breaks;            /* the chart ends on the way */
+    bool breaks;              /* the chart ends on the way */
     nh_reduced_flow *reduced; /* reduced equations in (x, p), which have a reference of their own; NULL: not reduced */
     double *reference, *reference_scale, agreement; /* outputs x size; size; error of the reference, by two methods */
 } nh_formulation;
@@ -36,8 +36,8 @@ typedef struct {
     double times[NH_BENCHMARK_OUTPUTS], *state, *scale; /* outputs x 2m; 2m */
     size_t currents;
     const char **name;
-    nh_ex *current;          /* in the model's chart */
-    nh_tape *tape;           /* currents, then d current_k / d y_j, over (t, q, v) */
+    nh_ex *current; /* in the model's chart */
+    nh_tape *tape;  /* currents, then d current_k / d y_j, over (t, q, v) */
     double *current_scale, *current_start;
 } nh_reference_solution;
 
@@ -72,7 +72,7 @@ double nh_reduced_drift(nh_formulation *f, const nh_motion *motion);
 /* A closed form of the system file at the output times. */
 typedef struct {
     const nh_known_motion *motion;
-    bool whole;    /* it gives all coordinates */
+    bool whole; /* it gives all coordinates */
     /* outputs x 2m, as in a reference solution; only the coordinates that it gives, and their velocities */
     double *state;
 } nh_known_motions;
@@ -84,7 +84,7 @@ typedef struct {
     int index;               /* of the equations that IDA solves: 1 or 2 */
     size_t formulation;
     bool projected;
-    double last;             /* seconds of its last run with all repetitions */
+    double last; /* seconds of its last run with all repetitions */
     bool given_up;
 } nh_candidate_run;
 
@@ -100,8 +100,8 @@ typedef struct {
     nh_formulation formulation[NH_BENCHMARK_FORMULATIONS + NH_CHART_REDUCED];
     nh_reduction *reduction;
     size_t closed_count;
-    nh_known_motions *closed;      /* those that apply to this initial state; true or not */
-    size_t held_currents;   /* currents that a projection preserves */
+    nh_known_motions *closed; /* those that apply to this initial state; true or not */
+    size_t held_currents;     /* currents that a projection preserves */
     nh_ex *held;
     nh_candidate_run candidate[NH_BENCHMARK_CANDIDATES];
     nh_run_record *grid; /* candidates x levels; method NULL: not run */

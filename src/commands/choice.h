@@ -10,8 +10,8 @@ typedef struct {
     uint64_t seed;
     /* whether the model in coordinate velocities may be used, too: the user did not choose the chart */
     bool may_derive;
-    double deriving;  /* units of effort for the derivation of the model */
-    nh_model *other;    /* the model that was derived; or NULL */
+    double deriving; /* units of effort for the derivation of the model */
+    nh_model *other; /* the model that was derived; or NULL */
     /* an argument of nh_trajectory_accurate; it points into this record, which must not move */
     nh_integration_plans ways;
 } nh_choice;

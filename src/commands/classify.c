@@ -35,11 +35,11 @@ static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_
         if (!nh_num_short(value)) {
             char digits[32];
             nh_text_number(s->parameter[i].value, digits, sizeof digits);
-            return nh_fail(error, NH_USAGE, "", "the value %s of `%s` has too many digits for a classification",
-                           digits, name);
+            return nh_fail(error, NH_USAGE, "", "the value %s of `%s` has too many digits for a classification", digits,
+                           name);
         }
-        x->other[x->others++] = (nh_setting){.name = nh_arena_strdup(x->arena, name), .value = s->parameter[i].value,
-                                             .top = value.p, .bottom = value.q};
+        x->other[x->others++] = (nh_setting){
+            .name = nh_arena_strdup(x->arena, name), .value = s->parameter[i].value, .top = value.p, .bottom = value.q};
     }
     x->fixed = x->others;
     for (size_t k = 0; k < q->settings; k++) /* functions of parameters that are set before them */
@@ -66,8 +66,12 @@ static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q
 {
     size_t all;
     nh_setting *setting = nh_classified_settings(x, count, at, &all);
-    nh_analyze_request request = {.command = q->command, .system_path = q->system_path, .settings = all,
-                                  .setting = setting, .options = q->options, .no_figures = true,
+    nh_analyze_request request = {.command = q->command,
+                                  .system_path = q->system_path,
+                                  .settings = all,
+                                  .setting = setting,
+                                  .options = q->options,
+                                  .no_figures = true,
                                   .model_only = model_only};
     request.options.degree = (double)x->degree;
     nh_analysis *r = nh_analysis_create(&request, error);
@@ -100,8 +104,8 @@ static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error
         for (size_t j = 0; j < k && good; j++)
             if (parameter[j] == parameter[k]) good = nh_fail(error, NH_USAGE, "", "--over names `%s` twice", name[k]);
         name[k] = nh_arena_strdup(x->arena, name[k]);
-        if (good) at[k] = (nh_setting){.name = name[k],
-                            .value = unimportant(s->parameter[parameter[k]].value * apart[k])};
+        if (good)
+            at[k] = (nh_setting){.name = name[k], .value = unimportant(s->parameter[parameter[k]].value * apart[k])};
     }
     if (good && fix_others(x, q, s, error)) {
         x->name = nh_arena_strdup(x->arena, s->name);
@@ -191,7 +195,7 @@ static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_cla
     if (!nh_classified_rational(&v->polynomial, &top, &bottom)) {
         if (!v->degenerate)
             out->why = x->question ? "it is looked at more closely at rational values only"
-                : "currents are constructed at rational values only";
+                                   : "currents are constructed at rational values only";
         return;
     }
     nh_error_clear(&error);
@@ -226,9 +230,10 @@ nh_classified *nh_classified_open(const nh_classify_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_classified *x = nh_arena_alloc(arena, sizeof *x);
-    *x = (nh_classified){.arena = arena, .shape = q->shape, .of = q->of,
-                          .degree = q->options.degree > 0 ? (size_t)q->options.degree
-                         : chosen_degree};
+    *x = (nh_classified){.arena = arena,
+                         .shape = q->shape,
+                         .of = q->of,
+                         .degree = q->options.degree > 0 ? (size_t)q->options.degree : chosen_degree};
     if (read_family(x, q, error)) return x;
     nh_classified_free(x);
     return NULL;
@@ -236,12 +241,17 @@ nh_classified *nh_classified_open(const nh_classify_request *q, nh_error *error)
 
 nh_classify_question nh_classified_question(nh_classified *x, const nh_classify_request *q, const nh_ex *known)
 {
-    nh_classify_question question = {.shape = q->shape, .degree = x->degree, .work = q->options.count_work,
-                                     .products = q->options.staircase, .theorem = (size_t)q->options.theorem,
-                                     .unknowns = (size_t)q->options.pencil, .plane = (size_t)q->options.plane,
+    nh_classify_question question = {.shape = q->shape,
+                                     .degree = x->degree,
+                                     .work = q->options.count_work,
+                                     .products = q->options.staircase,
+                                     .theorem = (size_t)q->options.theorem,
+                                     .unknowns = (size_t)q->options.pencil,
+                                     .plane = (size_t)q->options.plane,
                                      .lines = (size_t)q->options.lines,
                                      .planes = (size_t)q->options.planes,
-                                     .known = x->known, .current = known};
+                                     .known = x->known,
+                                     .current = known};
     nh_error none;
     nh_error_clear(&none);
     nh_classified_parameter(x->almost_all->system, x->over, &question.parameter, &none);

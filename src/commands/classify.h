@@ -21,24 +21,24 @@ typedef struct {
     size_t settings;
     const nh_setting *setting;
     const char *over, *second, *third; /* names of the parameters; second and third may be NULL */
-    bool shape;              /* coefficients that do not depend on cyclic coordinates */
-    nh_linear_question of;   /* what is classified: currents, or another question, of one parameter */
+    bool shape;                        /* coefficients that do not depend on cyclic coordinates */
+    nh_linear_question of;             /* what is classified: currents, or another question, of one parameter */
     nh_options options;
 } nh_classify_request;
 
 /* The analysis at one special value. */
 typedef struct {
-    nh_analysis *result;     /* NULL: there is none, for this reason */
+    nh_analysis *result; /* NULL: there is none, for this reason */
     const char *why;
-    const char *shown;       /* for other questions than that of currents: what was found there; NULL */
-    size_t complete;         /* the degree up to which all integrals are functions of these currents */
-    size_t exact;            /* the degree up to which their products, or this finding, account for the number */
+    const char *shown; /* for other questions than that of currents: what was found there; NULL */
+    size_t complete;   /* the degree up to which all integrals are functions of these currents */
+    size_t exact;      /* the degree up to which their products, or this finding, account for the number */
 } nh_classified_value;
 
 struct nh_classified {
     nh_arena *arena;
     const char *name, *title, *over, *second, *third; /* second, third: NULL, or further parameters that vary */
-    nh_analysis *almost_all;   /* the analysis at a value without special meaning */
+    nh_analysis *almost_all;                          /* the analysis at a value without special meaning */
     size_t known, *currents; /* the currents that hold for every value (nh_classified_current) */
     size_t degree;           /* the degree that the request asks for */
     bool shape;
@@ -46,9 +46,9 @@ struct nh_classified {
     nh_classified_value *value; /* one for each of its values */
     nh_linear_question of;
     nh_linear_system *question; /* NULL: the question is about currents */
-    size_t others, fixed;    /* number of other parameters; the first `fixed` have values, the others formulas */
+    size_t others, fixed;       /* number of other parameters; the first `fixed` have values, the others formulas */
     nh_setting *other;
-    bool partial;            /* the run ended before the classification was complete */
+    bool partial; /* the run ended before the classification was complete */
 };
 
 /* Classifies over one parameter; the caller frees the result.  NULL with a message on bad input. */
@@ -59,29 +59,29 @@ void nh_classified_free(nh_classified *classified);
 typedef struct {
     /* "eps = 2": this parameter as a function of the other; NULL: the curve has no such form */
     const char *graph;
-    bool upright;            /* that parameter is the second name */
-    nh_classified *along;    /* the classification over the other parameter; NULL: there is none, for this reason */
+    bool upright;         /* that parameter is the second name */
+    nh_classified *along; /* the classification over the other parameter; NULL: there is none, for this reason */
     const char *why;
-    size_t complete;         /* the degree up to which its currents account for the number of integrals */
+    size_t complete; /* the degree up to which its currents account for the number of integrals */
 } nh_classified_curve;
 
 /* A special point: isolated, or on a curve with more integrals than its other points. */
 typedef struct {
-    const char *value[2];    /* the values of both parameters: a rational number, or an equation */
-    bool rational;           /* are both values numbers? */
-    double about[2];         /* the values as doubles, if they are rational */
+    const char *value[2]; /* the values of both parameters: a rational number, or an equation */
+    bool rational;        /* are both values numbers? */
+    double about[2];      /* the values as doubles, if they are rational */
     size_t first;
     const nh_classify_number *number; /* by degree */
-    size_t curve;            /* the curve on which it lies; SIZE_MAX: it is isolated */
-    const nh_special_factor *root; /* if it is isolated: the factor of which value[0] is a root */
-    const nh_classified_value *at; /* its analysis */
+    size_t curve;                     /* the curve on which it lies; SIZE_MAX: it is isolated */
+    const nh_special_factor *root;    /* if it is isolated: the factor of which value[0] is a root */
+    const nh_classified_value *at;    /* its analysis */
 } nh_classified_point;
 
 typedef struct {
-    nh_classified *family;   /* the family without a classification */
-    const char *over[2];     /* lambda and mu are the second name and the first one */
+    nh_classified *family; /* the family without a classification */
+    const char *over[2];   /* lambda and mu are the second name and the first one */
     nh_plane *plane;
-    nh_classified_curve *curve; /* one for each of its curves */
+    nh_classified_curve *curve;    /* one for each of its curves */
     nh_classified_value *isolated; /* one for each isolated point of `plane` */
     size_t points;
     nh_classified_point *point;
@@ -96,30 +96,30 @@ void nh_classified_plane_free(nh_classified_plane *classified);
  * is classified as the plane of two of the parameters. */
 typedef struct {
     const nh_special_surface *polynomial;
-    size_t surface;          /* index of the special surface; SIZE_MAX: none */
-    int v, other[2];         /* parameter v is a function of the two others, which are those of `plane` in this order */
-    const char *graph;       /* "B = 16*A"; NULL: the surface has no such form */
+    size_t surface;    /* index of the special surface; SIZE_MAX: none */
+    int v, other[2];   /* parameter v is a function of the two others, which are those of `plane` in this order */
+    const char *graph; /* "B = 16*A"; NULL: the surface has no such form */
     nh_classified_plane *within; /* NULL: there is none, for this reason */
     const char *why;
-    size_t complete;         /* for a special surface, as for a curve */
+    size_t complete; /* for a special surface, as for a curve */
 } nh_classified_part;
 
 /* A curve that is special in a part and has more integrals than everything on which it lies. */
 typedef struct {
-    size_t part, index;      /* index among the curves of its plane */
-    const char *where;       /* "B = 16*A, 3*eps - 16*A = 0" */
+    size_t part, index; /* index among the curves of its plane */
+    const char *where;  /* "B = 16*A, 3*eps - 16*A = 0" */
 } nh_classified_space_curve;
 
 typedef struct {
     size_t part;
-    const char *value[3];    /* the values of the three parameters: a rational number, or an equation */
+    const char *value[3]; /* the values of the three parameters: a rational number, or an equation */
     double about[3];
     const nh_classified_point *at; /* the point in the plane of the part */
 } nh_classified_space_point;
 
 typedef struct {
-    nh_classified *family;   /* the family without a classification */
-    const char *over[3];     /* lambda, mu and nu are the third name, the second and the first */
+    nh_classified *family; /* the family without a classification */
+    const char *over[3];   /* lambda, mu and nu are the third name, the second and the first */
     nh_space *space;
     size_t parts, curves, points;
     nh_classified_part *part;

@@ -63,7 +63,7 @@ static void density(nh_classified *x, const nh_reduction_stage *s, nh_classified
         out->complete = 1;
     } else {
         nh_text_add(&text, x->of == NH_OF_MEASURE ? "have the invariant measure exp(sigma) dx dp"
-                    : "become Hamiltonian by the factor exp(sigma/(n - 1))");
+                                                  : "become Hamiltonian by the factor exp(sigma/(n - 1))");
         char *e = m->closed ? nh_print_short(s->chaplygin->dag, m->density, x->almost_all->options.shown) : NULL;
         if (e) nh_text_addf(&text, ", exp(sigma) = %s", e);
         nh_free(e);
@@ -94,8 +94,8 @@ void nh_classified_confirm(nh_classified *x, const nh_classify_request *q, const
     nh_error none = {0};
     size_t count;
     nh_setting *setting = nh_classified_settings(x, 1, at, &count);
-    nh_reduce_request request = {.system_path = q->system_path, .settings = count, .setting = setting,
-                                 .options = q->options};
+    nh_reduce_request request = {
+        .system_path = q->system_path, .settings = count, .setting = setting, .options = q->options};
     if (x->of == NH_OF_MEASURE || x->of == NH_OF_HAMILTONIZATION) reduced(x, &request, out);
     else {
         nh_system *s = nh_system_read(q->system_path, count, setting, &none);

@@ -59,8 +59,9 @@ const char *nh_classified_graph(const nh_classified *x, const nh_special_surface
     nh_text_init(&bottom);
     put_polynomial(x, s, v, 0, true, &top);
     put_polynomial(x, s, v, 1, false, &bottom);
-    const char *out = !strcmp(nh_text_string(&bottom), "1") ? nh_arena_strdup(x->arena, nh_text_string(&top))
-        : nh_arena_printf(x->arena, "(%s)/(%s)", nh_text_string(&top), nh_text_string(&bottom));
+    const char *out = !strcmp(nh_text_string(&bottom), "1")
+                          ? nh_arena_strdup(x->arena, nh_text_string(&top))
+                          : nh_arena_printf(x->arena, "(%s)/(%s)", nh_text_string(&top), nh_text_string(&bottom));
     nh_text_clear(&bottom);
     nh_text_clear(&top);
     return out;
@@ -210,8 +211,8 @@ static void points_on_curve(plane *x, size_t index, size_t *capacity)
     for (size_t k = 0; k < of->values; k++) {
         const nh_classify_value *v = &of->value[k];
         if (!v->first || v->degenerate) continue;
-        nh_classified_point p = {.first = v->first, .number = v->number, .curve = index, .at = &c->along->value[k],
-                                 .about = {NAN, NAN}};
+        nh_classified_point p = {
+            .first = v->first, .number = v->number, .curve = index, .at = &c->along->value[k], .about = {NAN, NAN}};
         for (int i = 0; i < 2 && p.at->result; i++)
             p.value[i] = nh_classified_value_of(x->family->arena, p.at->result->system, x->over[i], &p.about[i]);
         p.rational = p.value[0] && p.value[1];

@@ -43,8 +43,8 @@ static void classify_part(space *x, const nh_classify_request *q, part *p)
     setting[0] = (nh_setting){.name = x->over[p->v], .formula = formula};
     if (s->degree[0] + s->degree[1] == 0) { /* a number */
         int64_t top = -s->coefficient[0], bottom = s->coefficient[1];
-        setting[0] = (nh_setting){.name = x->over[p->v], .value = (double)top / (double)bottom, .top = top,
-                            .bottom = bottom};
+        setting[0] =
+            (nh_setting){.name = x->over[p->v], .value = (double)top / (double)bottom, .top = top, .bottom = bottom};
         formula = nh_arena_printf(x->family->arena, bottom == 1 ? "%" PRId64 : "%" PRId64 "/%" PRId64, top, bottom);
     }
     nh_classify_request request = *q;
@@ -68,8 +68,8 @@ static void classify_parts(space *x, const nh_classify_request *q)
         if (!o->surface[k].degenerate)
             x->part[x->parts++] = (part){.polynomial = &o->surface[k].polynomial, .surface = k};
     for (size_t k = 0; k < o->walls; k++) x->part[x->parts++] = (part){.polynomial = &o->wall[k], .surface = SIZE_MAX};
-    for (size_t k = 0; k < o->planes; k++) x->part[x->parts++] = (part){.polynomial = &o->plane[k],
-        .surface = SIZE_MAX};
+    for (size_t k = 0; k < o->planes; k++)
+        x->part[x->parts++] = (part){.polynomial = &o->plane[k], .surface = SIZE_MAX};
     for (size_t k = 0; k < x->parts && o->rows; k++) {
         x->part[k].why = "the run was ended";
         if (!nh_interrupted()) classify_part(x, q, &x->part[k]);
@@ -98,8 +98,8 @@ static bool lies_on(const nh_special_surface *s, const part *p, const nh_special
         int64_t number[2][2] = {{0, 1}, {0, 1}}, coefficient[2];
         nh_special_factor root = {.degree = 1, .coefficient = coefficient};
         for (int k = 0; point && k < 2; k++)
-            if (isfinite(point->about[k])) sscanf(point->value[k], "%" SCNd64 "/%" SCNd64, &number[k][0],
-                                                  &number[k][1]);
+            if (isfinite(point->about[k]))
+                sscanf(point->value[k], "%" SCNd64 "/%" SCNd64, &number[k][0], &number[k][1]);
         coefficient[0] = -number[0][0];
         coefficient[1] = number[0][1];
         if (point && isfinite(point->about[1]))
@@ -169,8 +169,8 @@ static nh_classified_space_point point_of(const space *x, size_t index, const nh
         out.value[p->v] = strstr(p->graph, "= ") + 2;
         out.about[p->v] = (double)top / (double)bottom;
     } else if (at->at->result) {
-        const char *value = nh_classified_value_of(x->family->arena, at->at->result->system, x->over[p->v],
-                                                   &out.about[p->v]);
+        const char *value =
+            nh_classified_value_of(x->family->arena, at->at->result->system, x->over[p->v], &out.about[p->v]);
         if (value) out.value[p->v] = value;
     }
     return out;

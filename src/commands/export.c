@@ -218,10 +218,8 @@ static bool reduce(nh_export *x, const nh_export_request *q, nh_error *error)
     x->reduction = nh_reduction_create(&request, &trouble);
     if (!x->reduction && (q->group || q->initial || nh_interrupted() || trouble.code == NH_USAGE))
         return *error = trouble, false;
-    if (!x->reduction)
-        nh_export_note(x, "reduced: %s", trouble.what);
-    else if (!x->reduction->stages)
-        nh_export_note(x, "reduced: there is no symmetry group to divide out");
+    if (!x->reduction) nh_export_note(x, "reduced: %s", trouble.what);
+    else if (!x->reduction->stages) nh_export_note(x, "reduced: there is no symmetry group to divide out");
     if (x->reduction) x->partial |= x->reduction->partial;
     return true;
 }

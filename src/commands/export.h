@@ -25,8 +25,8 @@ typedef struct {
     nh_chart_choice chart;
     const char *initial, *group; /* of the reduction: its initial state and its group; or NULL */
     bool weak;
-    const char *of;    /* "equations, currents", or NULL: all */
-    const char *input; /* "u, tau": parameters that are inputs of a controller, or NULL */
+    const char *of;        /* "equations, currents", or NULL: all */
+    const char *input;     /* "u, tau": parameters that are inputs of a controller, or NULL */
     const char *to, *name; /* the language, and the first word of the names, for the writer; or NULL */
     nh_options options;
 } nh_export_request;

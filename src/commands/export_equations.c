@@ -409,14 +409,10 @@ static void currents_in(const scope *s, const nh_analysis *r, bool submanifold)
         const char *doc = which ? "Gradients of the currents: by the time, the coordinates, the velocities."
                                 : "Functions that every motion keeps constant.";
         nh_export_function *f;
-        if (submanifold)
-            f = on_submanifold(s, NH_EXPORT_CURRENTS, name, doc);
-        else
-            place_and_velocity(s, f = nh_export_add(s->x, NH_EXPORT_CURRENTS, s->o->system, name, doc));
-        if (which)
-            nh_export_result(s->x, f, "gradient", "a row for each current", count, n, slope, label);
-        else
-            nh_export_result(s->x, f, "current", "conserved", count, 1, value, label);
+        if (submanifold) f = on_submanifold(s, NH_EXPORT_CURRENTS, name, doc);
+        else place_and_velocity(s, f = nh_export_add(s->x, NH_EXPORT_CURRENTS, s->o->system, name, doc));
+        if (which) nh_export_result(s->x, f, "gradient", "a row for each current", count, n, slope, label);
+        else nh_export_result(s->x, f, "current", "conserved", count, 1, value, label);
     }
 }
 

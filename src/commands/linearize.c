@@ -14,8 +14,8 @@
 typedef struct {
     nh_linearized *x;
     nh_analysis_file *file;
-    nh_ex *value;          /* 1 + 2m */
-    bool *given, project;  /* 2m */
+    nh_ex *value;         /* 1 + 2m */
+    bool *given, project; /* 2m */
     double *parameter;
     long axis_parameter, axis_value; /* what --over changes: an index of parameter, or of value; -1 */
 } family;
@@ -88,13 +88,13 @@ static void judge(nh_linear_row *row)
         else if (z->re < -z->radius) negative += z->times;
         else if (hypot(z->re, z->im) <= z->radius) zero += z->times;
     }
-    row->verdict = !e                                     ? NH_LINEAR_UNKNOWN
-                   : e->residual > 0 || e->changes        ? NH_LINEAR_UNSTEADY
-                   : e->size > 0 && !e->eigenvalues       ? NH_LINEAR_UNKNOWN
-                   : row->positive                        ? NH_LINEAR_UNSTABLE
-                   : negative == all                      ? NH_LINEAR_STABLE
-                   : negative + zero == all && negative   ? NH_LINEAR_BUT_ZERO
-                                                          : NH_LINEAR_MARGINAL;
+    row->verdict = !e                                   ? NH_LINEAR_UNKNOWN
+                   : e->residual > 0 || e->changes      ? NH_LINEAR_UNSTEADY
+                   : e->size > 0 && !e->eigenvalues     ? NH_LINEAR_UNKNOWN
+                   : row->positive                      ? NH_LINEAR_UNSTABLE
+                   : negative == all                    ? NH_LINEAR_STABLE
+                   : negative + zero == all && negative ? NH_LINEAR_BUT_ZERO
+                                                        : NH_LINEAR_MARGINAL;
 }
 
 static bool same_kind(const nh_linear_row *a, const nh_linear_row *b)
@@ -121,7 +121,7 @@ static bool bisect(family *f, const nh_linear_row *begin, double high, double ra
     static const double narrow = 4e-15;
     double low = begin->value.value;
     bool good = true;
-    for (double middle; good; ) {
+    for (double middle; good;) {
         middle = low + (high - low) / 2;
         if (high - low <= narrow * fmax(fmax(fabs(low), fabs(high)), range / 10) || middle <= low || middle >= high)
             break;

@@ -19,12 +19,12 @@ typedef struct {
 /* What the eigenvalues of the closed linear equations say: a real part is positive or negative where its error bound
  * proves that. */
 typedef enum {
-    NH_LINEAR_UNSTEADY,  /* nothing: the state is not steady, or its linear equations change with time */
-    NH_LINEAR_UNKNOWN,   /* nothing: no eigenvalues were enclosed */
-    NH_LINEAR_UNSTABLE,  /* there is a positive real part */
-    NH_LINEAR_STABLE,    /* all real parts are negative */
-    NH_LINEAR_BUT_ZERO,  /* those of all eigenvalues but 0 are */
-    NH_LINEAR_MARGINAL   /* none is positive, some eigenvalue besides 0 has none */
+    NH_LINEAR_UNSTEADY, /* nothing: the state is not steady, or its linear equations change with time */
+    NH_LINEAR_UNKNOWN,  /* nothing: no eigenvalues were enclosed */
+    NH_LINEAR_UNSTABLE, /* there is a positive real part */
+    NH_LINEAR_STABLE,   /* all real parts are negative */
+    NH_LINEAR_BUT_ZERO, /* those of all eigenvalues but 0 are */
+    NH_LINEAR_MARGINAL  /* none is positive, some eigenvalue besides 0 has none */
 } nh_linear_verdict;
 
 typedef struct {
@@ -32,7 +32,7 @@ typedef struct {
     nh_linear_equations *equations; /* NULL: see why */
     const char *why;
     nh_linear_verdict verdict;
-    size_t positive;                /* eigenvalues with positive real part, with multiplicity */
+    size_t positive; /* eigenvalues with positive real part, with multiplicity */
 } nh_linear_row;
 
 /* Between low and high the verdict changes, or the number of positive real parts. */
@@ -46,13 +46,13 @@ struct nh_linearized { /* nhsym.h */
     nh_arena *arena;
     nh_system *system;
     nh_linearization *linearization;
-    const char *at, *over;          /* as typed; over: the name, or NULL */
-    size_t rows;                    /* 1 without `over` */
+    const char *at, *over; /* as typed; over: the name, or NULL */
+    size_t rows;           /* 1 without `over` */
     nh_linear_row *row;
     size_t changes, change_capacity;
     nh_linear_change *change;
-    size_t branches;                /* of eigenvalues along `over` */
-    double *re, *im;                /* rows x branches; NAN where there is none */
+    size_t branches; /* of eigenvalues along `over` */
+    double *re, *im; /* rows x branches; NAN where there is none */
     bool partial;
 };
 

@@ -258,8 +258,8 @@ nh_live *nh_live_create(const nh_live_request *q, nh_live_lacks *lacks)
     const nh_model *o = q->model;
     *x = (nh_export){.arena = arena, .borrowed = true, .system = o->system, .model = o};
     x->input = nh_arena_alloc(arena, (o->system->parameters + 1) * sizeof *x->input);
-    *l = (nh_live){.code = x, .model = o, .begin = q->begin, .end = q->end, .quantities = q->quantities,
-                   .quantity = q->quantity};
+    *l = (nh_live){
+        .code = x, .model = o, .begin = q->begin, .end = q->end, .quantities = q->quantities, .quantity = q->quantity};
     maker w = {.live = l, .q = q, .x = x, .o = o, .d = o->dag, .m = o->m, .n = o->n, .k = o->k};
     choose_state(&w);
     if (w.everywhere) equations_everywhere(&w);

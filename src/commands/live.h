@@ -30,19 +30,19 @@ typedef struct {
 } nh_live_request;
 
 typedef struct {
-    nh_export *code;         /* the functions above, in this order; those that are not needed are missing */
-    const char *why;         /* why a page cannot compute the motion; NULL: it can */
+    nh_export *code; /* the functions above, in this order; those that are not needed are missing */
+    const char *why; /* why a page cannot compute the motion; NULL: it can */
     const nh_model *model;
     size_t states;
     const char **state;      /* names, as after --initial */
     const nh_ex *symbol;     /* the same as symbols */
     double *initial, *floor; /* floor: the error of a state is relative to max(|state|, floor) */
     double begin, end;
-    size_t tracks;           /* those of the request that `observe` computes; all with `why` */
-    const size_t *track;     /* their indices in the request */
+    size_t tracks;       /* those of the request that `observe` computes; all with `why` */
+    const size_t *track; /* their indices in the request */
     size_t quantities;
     const nh_live_quantity *quantity;
-    const bool *without;     /* per quantity: the language cannot write it, and it is 0 here */
+    const bool *without; /* per quantity: the language cannot write it, and it is 0 here */
 } nh_live;
 
 /* Can a language write this expression?  NULL: it can; otherwise the function that it lacks. */

@@ -22,9 +22,9 @@ typedef struct {
     size_t settings;
     const nh_setting *setting;
     nh_chart_choice chart;
-    const char *initial;      /* "phi=0, omega=2", or NULL; velocities that are not named follow from the constraints */
-    bool project;             /* move velocities that violate the constraints to the nearest that do not */
-    bool weak;                /* also allows symmetries up to a total derivative */
+    const char *initial; /* "phi=0, omega=2", or NULL; velocities that are not named follow from the constraints */
+    bool project;        /* move velocities that violate the constraints to the nearest that do not */
+    bool weak;           /* also allows symmetries up to a total derivative */
     /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL:
      * found */
     const char *chain;
@@ -36,28 +36,28 @@ typedef struct {
     /* accuracy to which reduced and full motions must agree: their methods and tolerances are chosen for it, and
      * options.tolerance is a hundredth of it; 0: none is requested */
     double accuracy;
-    bool equations;           /* writes out the objects of the theory */
+    bool equations; /* writes out the objects of the theory */
     nh_options options;
 } nh_reduce_request;
 
 /* The method by which a motion is computed where an accuracy is requested. */
 typedef struct {
-    const char *method;       /* NULL: no method was chosen */
-    double tolerance, step;   /* one of them is NAN */
+    const char *method;     /* NULL: no method was chosen */
+    double tolerance, step; /* one of them is NAN */
     /* of the full motion: distance of a motion with a tighter tolerance; of a stage: distance from the full motion */
     double error;
-    long evaluations;         /* of this motion, with those of the motion in the group */
-    double effort, seconds;   /* counted work (base/effort.h), which decides; and the time, which is shown */
-    const char *next;         /* of a stage: the second cheapest method; NULL: no other one reaches the accuracy */
-    double times;             /* its counted work, relative to this one */
-    int runs;                 /* runs that the search took */
+    long evaluations;       /* of this motion, with those of the motion in the group */
+    double effort, seconds; /* counted work (base/effort.h), which decides; and the time, which is shown */
+    const char *next;       /* of a stage: the second cheapest method; NULL: no other one reaches the accuracy */
+    double times;           /* its counted work, relative to this one */
+    int runs;               /* runs that the search took */
     bool held;
-    char why[512];            /* the choice in words, or what failed */
+    char why[512]; /* the choice in words, or what failed */
 } nh_reduction_choice;
 
 /* A symmetry that a stage does not use, or a stage that does not exist, and why. */
 typedef struct {
-    const char *what, *why;   /* "e3", "a Chaplygin stage" */
+    const char *what, *why; /* "e3", "a Chaplygin stage" */
 } nh_reduction_unused;
 
 typedef enum {
@@ -72,26 +72,26 @@ typedef enum {
 typedef struct {
     /* of the metric on the shape space, in stages of the first and second kind; NULL where it is not known */
     const nh_ex *inverse;
-    const nh_ex *locked;      /* second kind: of the locked inertia */
+    const nh_ex *locked;                /* second kind: of the locked inertia */
     const nh_lagrange_poincare *bundle; /* third kind */
 } nh_reduction_theory;
 
 /* The motion of a stage's equations, at the first `count` of the reduction's times. */
 typedef struct {
-    size_t count, m;          /* 0: there is no motion; coordinates of the action's kinetic energy */
-    const double *q;          /* count x m: places, after reconstruction */
+    size_t count, m; /* 0: there is no motion; coordinates of the action's kinetic energy */
+    const double *q; /* count x m: places, after reconstruction */
     /* outputs before the slice or the velocities change for the first time; number of momenta */
     size_t charted, momenta;
-    const double *p;          /* charted x momenta */
-    const char **name;        /* names of the momenta */
+    const double *p;   /* charted x momenta */
+    const char **name; /* names of the momenta */
 } nh_reduction_motion;
 
 /* One stage, written on a slice through the initial state; `shown` is the same stage on the slice y = 0, where that is
  * regular. */
 typedef struct {
     nh_stage_kind kind;
-    char *group;              /* name of the group that is divided out */
-    bool local;               /* a generator of it is many-valued on an angle */
+    char *group; /* name of the group that is divided out */
+    bool local;  /* a generator of it is many-valued on an angle */
     const nh_action *action;
     const nh_slice *slice, *shown_slice;
     const nh_reduced *reduced, *shown;
@@ -99,14 +99,14 @@ typedef struct {
      * printed_states states of their slice: the largest difference, relative to the terms */
     double printed;
     size_t printed_states;
-    const double *start;      /* (x, p) at the initial state, in the variables of `reduced` */
+    const double *start;           /* (x, p) at the initial state, in the variables of `reduced` */
     const nh_chaplygin *chaplygin; /* shown; of the first kind */
     /* of the first kind, and of the second for an abelian group (its factor: for two shape coordinates at most) */
     nh_chaplygin_measure measure;
     /* where there is no measure, or no factor: for which parameters there would be one */
     nh_measure_conditions conditions;
-    const nh_second *second;  /* shown; of the second kind */
-    bool by_stages;           /* third kind: were the equations by stages derived? */
+    const nh_second *second; /* shown; of the second kind */
+    bool by_stages;          /* third kind: were the equations by stages derived? */
     const nh_ideals *chain;
     nh_poincare poincare;
     nh_linear_momenta linear; /* of the shown equations; third and fourth kind */
@@ -118,18 +118,18 @@ typedef struct {
     double agreement;
     /* the error of the full motion, measured where the agreement exceeds 100 tolerances; else 0 */
     double unsure;
-    double reached;           /* time up to which they were compared */
+    double reached; /* time up to which they were compared */
     /* largest drift of the energy of the reduced motion, relative to the largest of its terms so far; negative: not
      * followed */
     double energy_drift;
     /* second kind: largest drift of the spatial momentum, relative to the largest momentum of this energy; negative:
      * not followed */
     double momentum_drift;
-    double seconds, speedup;  /* seconds of the reduced motion; time of the full motion over it */
-    size_t restarts, charts;  /* of the coordinates of the group; changes of the slice or the velocities */
+    double seconds, speedup;    /* seconds of the reduced motion; time of the full motion over it */
+    size_t restarts, charts;    /* of the coordinates of the group; changes of the slice or the velocities */
     nh_reduction_choice choice; /* where an accuracy is requested */
     bool compared, complete;
-    bool dependent;           /* the motion ended where the constraints become dependent */
+    bool dependent;                    /* the motion ended where the constraints become dependent */
     const nh_reduction_theory *theory; /* NULL: not requested */
     nh_reduction_motion motion;
     char note[256];
@@ -138,16 +138,16 @@ typedef struct {
 struct nh_reduction {
     nh_arena *arena;
     nh_system *system;
-    nh_model *model;          /* bare */
-    nh_model *whole;          /* with its geometry, where a stage needs that; NULL */
-    nh_frame_motion *frame;   /* of a quotient; NULL */
+    nh_model *model;        /* bare */
+    nh_model *whole;        /* with its geometry, where a stage needs that; NULL */
+    nh_frame_motion *frame; /* of a quotient; NULL */
     nh_chart_choice chart;
     nh_kinetic *kinetic;
     /* the true one, where `kinetic` has the potential as a force (quasi_symmetry.h); else NULL */
     nh_kinetic *strict;
-    size_t weaker;            /* symmetries that change L by a total derivative, beyond those counted in `all` */
-    nh_group *all;            /* the whole symmetry group; NULL where fields were given */
-    nh_group *group;          /* the group that is divided out (may be `all`) */
+    size_t weaker;   /* symmetries that change L by a total derivative, beyond those counted in `all` */
+    nh_group *all;   /* the whole symmetry group; NULL where fields were given */
+    nh_group *group; /* the group that is divided out (may be `all`) */
     nh_options options;
     nh_state initial;
     double until, full_seconds;
@@ -163,10 +163,10 @@ struct nh_reduction {
     const nh_slice *kept[2];
     const nh_chaplygin *kept_chaplygin;
     const nh_reduced *kept_whole;
-    bool brief;               /* computes motions only: no equations to show, no tests of measures and stages */
+    bool brief; /* computes motions only: no equations to show, no tests of measures and stages */
     size_t stages;
     nh_reduction_stage stage[4];
-    nh_action action[4];      /* of the stages */
+    nh_action action[4]; /* of the stages */
     nh_second second[2];
     nh_ideals chain;
     const char *chain_text, *inner_text;
@@ -177,9 +177,9 @@ struct nh_reduction {
     nh_momenta momenta;
     /* displacements of joints that leave the kinetic energy invariant; NULL unless the system is given by bodies */
     nh_chain_symmetries *joints;
-    nh_generator *of_joint;      /* joints->fields: these fields, with what they leave invariant */
+    nh_generator *of_joint; /* joints->fields: these fields, with what they leave invariant */
     clock_t begin;
-    bool partial;             /* the time limit caused an omission, which a warning names */
+    bool partial; /* the time limit caused an omission, which a warning names */
     size_t warnings;
     const char *warning[16];
     double seconds;

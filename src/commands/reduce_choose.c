@@ -11,7 +11,7 @@
 #include "base/progress.h"
 #include "commands/reduce_internal.h"
 
-enum { most_runs = 7 };       /* runs of one method */
+enum { most_runs = 7 }; /* runs of one method */
 /* aim: as a part of the requested accuracy; tolerances */
 static const double aim = 0.5, loosest = 1e-5, tightest = 1e-14;
 /* units of effort: the first limit; factor to the next; limits are neither above nor below these */
@@ -20,19 +20,19 @@ static const double quick = 0.01; /* seconds: a run that is as short is timed tw
 
 typedef struct {
     const nh_method *method;
-    bool out;                 /* the method fails, or was not near enough at the smallest tolerance */
-    double effort;            /* effort of the run that was near enough; INFINITY */
+    bool out;      /* the method fails, or was not near enough at the smallest tolerance */
+    double effort; /* effort of the run that was near enough; INFINITY */
 } runner;
 
 typedef struct {
     nh_reduction_bench *b;
     nh_reduction_stage *s;
     const nh_reduction_time_series *course;
-    double wanted, limit;     /* units that a run may need */
+    double wanted, limit; /* units that a run may need */
     int runs;
-    nh_reconstruction *best;  /* the cheapest run that is near enough, or, while there is none, the nearest one */
-    nh_reconstruct_how how;   /* it was computed */
-    double distance, effort;  /* its distance, and its effort: INFINITY while none is near enough */
+    nh_reconstruction *best; /* the cheapest run that is near enough, or, while there is none, the nearest one */
+    nh_reconstruct_how how;  /* it was computed */
+    double distance, effort; /* its distance, and its effort: INFINITY while none is near enough */
 } race;
 
 static nh_reconstruction *run(race *q, const nh_method *method, double tolerance, double effort)

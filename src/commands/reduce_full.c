@@ -47,7 +47,8 @@ static double *metric_at(const nh_kinetic *k, const double *q)
     size_t m = k->m;
     double *K = nh_alloc_array(m * m + 1, sizeof *K);
     if (k->quadratic && k->autonomous) nh_kinetic_values(k, m * m, k->K, q, K);
-    else for (size_t s = 0; s < m; s++) K[s * (m + 1)] = 1;
+    else
+        for (size_t s = 0; s < m; s++) K[s * (m + 1)] = 1;
     return K;
 }
 

@@ -23,13 +23,13 @@ bool nh_reduction_initial(nh_reduction *reduction, const nh_reduce_request *requ
 /* The full motion with which stages are compared. */
 typedef struct {
     nh_reduction *r;
-    double *times;        /* NH_REDUCTION_OUTPUTS */
-    size_t reached;       /* outputs of the full motion */
-    double *full;         /* the places, outputs x m */
-    double rtol;          /* tolerance of every motion that is compared */
+    double *times;           /* NH_REDUCTION_OUTPUTS */
+    size_t reached;          /* outputs of the full motion */
+    double *full;            /* the places, outputs x m */
+    double rtol;             /* tolerance of every motion that is compared */
     const nh_method *method; /* method of the reference, where it was not chosen for an accuracy */
-    double finest;        /* its tolerance */
-    double unsure;        /* see nh_reduction_unsure; 0: not measured */
+    double finest;           /* its tolerance */
+    double unsure;           /* see nh_reduction_unsure; 0: not measured */
 } nh_reduction_bench;
 
 /* Computes the reference, and the tolerance of all motions; where an accuracy is requested, by the method that reaches
@@ -60,9 +60,9 @@ typedef struct {
     /* in its charts, from a place and its velocity in the coordinates of the action's kinetic ... */
     nh_atlas *atlas;
     const double *q, *v;
-    const double *z;       /* ... or (atlas NULL) on the stage's slice alone, from this state */
+    const double *z; /* ... or (atlas NULL) on the stage's slice alone, from this state */
     size_t outputs;
-    const double *want;    /* positions, `stride` apart, at the first `reached` outputs */
+    const double *want; /* positions, `stride` apart, at the first `reached` outputs */
     size_t stride, reached;
 } nh_reduction_time_series;
 

@@ -142,7 +142,8 @@ static size_t second_fields(nh_reduction *r, const nh_chaplygin *first, size_t n
         all[i] = nh_int(d, 0);
         for (size_t a = 0; a < g->d; a++)
             if (t[a + i / m * g->d] != 0)
-                all[i] = nh_add(d, all[i], nh_mul(d, nh_real(d, t[a + i / m * g->d]), g->generator[a].component[i % m]));
+                all[i] =
+                    nh_add(d, all[i], nh_mul(d, nh_real(d, t[a + i / m * g->d]), g->generator[a].component[i % m]));
     }
     size_t count = nh_second_candidates(first, n, all, &r->options, c);
     for (size_t j = 0; j < count; j++) {
@@ -321,9 +322,7 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         good = chaplygin_stage(b, &r->action[0], &first, error);
         const nh_chaplygin *shown = good ? r->stage[0].chaplygin : NULL;
         if (good && shown != first && nh_slice_reach(shown->slice, q, v, v + m) < SIZE_MAX) first = shown;
-        size_t n = good && !nh_reduction_late(r, "a second stage")
-                       ? nh_group_normaliser(r->group, f, index, rest)
-                       : 0;
+        size_t n = good && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, rest) : 0;
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         bool *used = nh_alloc_array(2 * g->d + 1, sizeof *used), *normalises = used + g->d;
         for (size_t i = 0; i < f; i++) used[index[i]] = true;

@@ -76,8 +76,8 @@ static bool velocities(nh_reduction *r, const nh_reduce_request *q, const bool *
     double left = satisfy(r->kinetic, r->initial.q, given ? given : all, r->initial.v);
     if (left <= allowed) return true;
     if (q->project) return satisfy(r->kinetic, r->initial.q, NULL, r->initial.v) <= allowed || none_near(error);
-    nh_fail(error, NH_USAGE, "",
-            "the initial velocities violate the constraints: the residual is %.3g of their size", left);
+    nh_fail(error, NH_USAGE, "", "the initial velocities violate the constraints: the residual is %.3g of their size",
+            left);
     return nh_error_hint(error, "omit velocities that the constraints determine, or use --project, "
                                 "which takes the nearest allowed velocities");
 }
@@ -128,7 +128,8 @@ static bool project(nh_reduction *r, const nh_reduce_request *q, const bool *giv
     if (off <= allowed || q->project) return true;
     nh_fail(error, NH_USAGE, "",
             "the initial velocities violate the constraints: the distance to the nearest allowed velocities is "
-            "%.3g of their size", off);
+            "%.3g of their size",
+            off);
     return nh_error_hint(error, "give other values, or use --project, which takes these velocities");
 }
 

@@ -30,12 +30,12 @@ typedef struct {
     double error;
     /* largest drift of a known current, NAN where none is known */
     double drift;
-    const char *note;  /* which safeguard triggered, or why the run failed */
+    const char *note; /* which safeguard triggered, or why the run failed */
 } nh_robustness_cell;
 
 typedef struct {
     const char *name, *axis, *second_axis; /* second_axis: NULL when there is only one */
-    size_t methods, cells; /* cells: value by value, `methods` each */
+    size_t methods, cells;                 /* cells: value by value, `methods` each */
     nh_robustness_cell *cell;
 } nh_robustness_map;
 

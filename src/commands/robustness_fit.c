@@ -38,16 +38,16 @@ typedef struct {
     nh_nullspace_options limits;
     nh_points *points, *many, *heldout; /* of the whole domain */
     size_t letters, columns;
-    nh_ex *letter, *e;                  /* the polynomials */
-    uint64_t state;                     /* state of the random numbers of the noise */
+    nh_ex *letter, *e; /* the polynomials */
+    uint64_t state;    /* state of the random numbers of the noise */
 } fit;
 
 /* One method for one ansatz. */
 typedef struct {
     size_t columns;
-    nh_ex *e;        /* the current of each column */
+    nh_ex *e; /* the current of each column */
     nh_nullspace *space;
-    char why[120];   /* the reason why there is no null space */
+    char why[120]; /* the reason why there is no null space */
 } solved;
 
 static double chance(fit *f)

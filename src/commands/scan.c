@@ -290,8 +290,8 @@ nh_scan *nh_scan_create(const nh_scan_request *q, nh_error *error)
     nh_scan *x = nh_arena_alloc(arena, sizeof *x);
     *x = (nh_scan){.arena = arena, .source = q->source};
     x->system = nh_system_read(q->system_path, q->settings, q->setting, error);
-    bool good = x->system && nh_system_needs_values(x->system, "a scan", error) &&
-                nh_scan_read_grid(x, q, error) && nh_scan_list_spaces(x, q, error);
+    bool good = x->system && nh_system_needs_values(x->system, "a scan", error) && nh_scan_read_grid(x, q, error) &&
+                nh_scan_list_spaces(x, q, error);
     if (good) x->question = question_of(x, q);
     if (good && compute(x, q, error)) return x;
     nh_scan_free(x);

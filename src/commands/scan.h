@@ -24,10 +24,10 @@ typedef struct {
 } nh_scan_value;
 
 typedef struct {
-    const char *name;      /* a parameter */
+    const char *name; /* a parameter */
     size_t count;
     nh_scan_value *value;
-    bool ascending;        /* then jumps and dips are looked for along it */
+    bool ascending; /* then jumps and dips are looked for along it */
 } nh_scan_axis;
 
 /* Reads "k=1:4:61" or "k=1,2,5/2"; the caller checks whether the system has such a parameter. */
@@ -35,11 +35,11 @@ bool nh_scan_read_axis(nh_arena *arena, const char *text, nh_scan_axis *out, nh_
 
 /* The numbers that a scan computes at a point. */
 typedef struct {
-    const char *of;        /* "count", "analyze", "reduce" */
+    const char *of; /* "count", "analyze", "reduce" */
     size_t count;
     const char *const *name; /* the first leads */
-    bool usual;            /* these are the numbers that `of` has by default */
-    bool spectra;          /* the ansatz spaces are computed, too */
+    bool usual;              /* these are the numbers that `of` has by default */
+    bool spectra;            /* the ansatz spaces are computed, too */
     /* The numbers with these settings, exact ones for the parameters of the grid; a number that is not there is NAN,
      * and *why is the reason, in the arena. `generic`: for almost all values of the parameters instead; the settings
      * are only starting values then. False: interrupted. */
@@ -56,20 +56,20 @@ typedef struct {
     const char *const *over; /* "k=1:4:61", "k=1,2,5/2" */
     const nh_scan_source *source;
     nh_options options;
-    const char *program;     /* which program answers: version and build */
+    const char *program; /* which program answers: version and build */
     const char *folder;
-    size_t chunk, chunks;    /* a part of the points, as in base/sweep.h */
+    size_t chunk, chunks; /* a part of the points, as in base/sweep.h */
     size_t workers;
     void (*begin_worker)(void);
     const nh_team *team;
 } nh_scan_request;
 
 typedef struct {
-    double *number;          /* numbers of the source */
+    double *number; /* numbers of the source */
     /* for each ansatz space the smallest generalized singular value that does not vanish; NAN */
     double *smallest;
-    size_t *vanishing;       /* for each ansatz space the number of those that vanish */
-    const char *why;         /* why numbers are missing; or NULL */
+    size_t *vanishing; /* for each ansatz space the number of those that vanish */
+    const char *why;   /* why numbers are missing; or NULL */
     bool done;
 } nh_scan_row;
 
@@ -77,38 +77,38 @@ typedef enum { NH_SCAN_HIT, NH_SCAN_STEP, NH_SCAN_DIP } nh_scan_kind;
 
 /* A value at which something jumps. */
 typedef struct {
-    nh_scan_kind kind;       /* at a point of the grid; at an end of a region; between points */
-    size_t axis, place;      /* the axis; the index of the point, or of the one below */
+    nh_scan_kind kind;  /* at a point of the grid; at an end of a region; between points */
+    size_t axis, place; /* the axis; the index of the point, or of the one below */
     double value;
-    const char *exact;       /* "1/3", "pi/6", or NULL: not recognised */
-    double *number;          /* the numbers of the source there, where the value is confirmed; else NAN */
-    double generic;          /* the leading number around it; for a step NAN */
-    double below, above;     /* the leading number at the points beside it */
-    double smallest;         /* of a dip: the singular value there, relative to those at the points beside it */
-    const char *space;       /* of a dip: the ansatz space that contains one more current there */
-    bool confirmed;          /* with the exact value the source gives another leading number */
-    const char *why;         /* why it does not; or NULL */
+    const char *exact;   /* "1/3", "pi/6", or NULL: not recognised */
+    double *number;      /* the numbers of the source there, where the value is confirmed; else NAN */
+    double generic;      /* the leading number around it; for a step NAN */
+    double below, above; /* the leading number at the points beside it */
+    double smallest;     /* of a dip: the singular value there, relative to those at the points beside it */
+    const char *space;   /* of a dip: the ansatz space that contains one more current there */
+    bool confirmed;      /* with the exact value the source gives another leading number */
+    const char *why;     /* why it does not; or NULL */
 } nh_scan_special;
 
 typedef struct {
     nh_arena *arena;
-    nh_system *system;       /* with the settings */
+    nh_system *system; /* with the settings */
     const nh_scan_source *source;
     size_t axes, points, spaces;
     nh_scan_axis axis[NH_SCAN_MOST_AXES];
-    const char *question;    /* everything on which the answer depends, as a command line */
-    const char **space;      /* names of the ansatz spaces */
-    size_t *columns;         /* number of their functions */
-    size_t *usual;           /* number of singular values that vanish at most points */
+    const char *question; /* everything on which the answer depends, as a command line */
+    const char **space;   /* names of the ansatz spaces */
+    size_t *columns;      /* number of their functions */
+    size_t *usual;        /* number of singular values that vanish at most points */
     nh_scan_row *row;
     size_t specials, unrefined; /* unrefined: jumps that were not examined yet */
     nh_scan_special *special;
-    size_t units, finished;  /* of the chunk */
-    double unit_seconds;     /* seconds that a unit was estimated to take */
+    size_t units, finished; /* of the chunk */
+    double unit_seconds;    /* seconds that a unit was estimated to take */
     size_t deaths;
     const char *death;
-    bool partial, chunked;   /* something is missing; only a chunk was computed */
-    bool silent;             /* another member of the team prints the result */
+    bool partial, chunked; /* something is missing; only a chunk was computed */
+    bool silent;           /* another member of the team prints the result */
 } nh_scan;
 
 /* Scans; the caller frees the result.  NULL: bad input, a folder that contains another scan, or one that cannot be

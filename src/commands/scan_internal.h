@@ -38,7 +38,7 @@ typedef struct {
     nh_scan_kind kind;
     size_t axis, place;
     double generic;
-    size_t spaces;           /* of a dip: at most three spaces, the most promising first */
+    size_t spaces;                 /* of a dip: at most three spaces, the most promising first */
     size_t space[3], vanishing[3]; /* and the number of singular values that vanish around it */
 } nh_scan_jump;
 

@@ -55,9 +55,9 @@ static bool compare(const char *path, const char *text, const char *program, con
         nh_fail(error, NH_INPUT, path, "this is no manifest of a scan");
         nh_error_hint(error, "give another folder, or remove this one");
     }
-    good = good && !differs(m, "question", question, "with another question", path, error)
-           && !differs(m, "files", files, "of another system file, or this one was changed since", path, error)
-           && !differs(m, "program", program, "that another program began", path, error);
+    good = good && !differs(m, "question", question, "with another question", path, error) &&
+           !differs(m, "files", files, "of another system file, or this one was changed since", path, error) &&
+           !differs(m, "program", program, "that another program began", path, error);
     if (good) *per_unit = (size_t)size;
     nh_json_free(m);
     return good;

@@ -26,12 +26,12 @@ typedef struct {
     size_t settings;
     nh_setting *exact, *plain; /* settings of the jump's point; the value along the axis is changed */
     nh_setting *along, *along_plain;
-    size_t space;            /* of a dip: index of the space in `jump->space` */
-    double from, to;         /* interval between the points beside it */
-    double value, error;     /* the located value */
-    double *number;          /* the numbers of the source */
+    size_t space;        /* of a dip: index of the space in `jump->space` */
+    double from, to;     /* interval between the points beside it */
+    double value, error; /* the located value */
+    double *number;      /* the numbers of the source */
     double generic, below, above, smallest;
-    const char *name, *why;  /* the exact value as text; why it is not confirmed */
+    const char *name, *why; /* the exact value as text; why it is not confirmed */
     nh_scan_kind kind;
     bool confirmed, ended;
 } task;

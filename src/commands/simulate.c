@@ -13,7 +13,7 @@
 enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
 /* units of effort: a motion that needs less is compared with that of the whole model, which may need as much */
 static const double small_motion = 1e8, most_whole = 1e9;
-static const double repeated = 0.1;                      /* seconds: shorter comparisons are repeated */
+static const double repeated = 0.1; /* seconds: shorter comparisons are repeated */
 
 /* ---- which quantities are wanted along the motion ---- */
 

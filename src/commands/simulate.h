@@ -12,11 +12,11 @@ typedef struct {
     const char *initial, *from; /* as after --initial, or NULL; file and line */
     const char *name;           /* the values of its cells: "omega = 1, k = 2" */
     size_t settings;
-    nh_setting *setting;        /* values of the columns that are parameters */
+    nh_setting *setting; /* values of the columns that are parameters */
 } nh_simulate_row;
 
 typedef struct {
-    size_t count, parameters;   /* rows; columns that are parameters: the same in every row */
+    size_t count, parameters; /* rows; columns that are parameters: the same in every row */
     nh_simulate_row *row;
 } nh_simulate_rows;
 
@@ -35,26 +35,26 @@ typedef struct {
     nh_chart_choice chart;
     /* "phi=0, omega=2", or NULL: that of the analysis file, otherwise a state that satisfies the constraints */
     const char *initial;
-    const char *from;                        /* the place of this text, for messages; NULL: --initial */
-    const char *watch;                       /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
+    const char *from;  /* the place of this text, for messages; NULL: --initial */
+    const char *watch; /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
     /* "y = 0, falling, stop; phi'": expressions whose zeros are recorded, or end the motion; or NULL */
     const char *event;
-    const char *also; /* "m*v": one more column, called Phi, for the page of another command; or NULL */
+    const char *also;    /* "m*v": one more column, called Phi, for the page of another command; or NULL */
     const char *section; /* "x, rising": a Poincare section; or NULL */
     const char *axes;    /* "y, y'": the columns of the picture; NULL: chosen */
-    bool scene;                              /* the same with the observables of the analysis file */
-    bool draw;                               /* also follows what is drawn (one motion with all columns) */
-    bool picture;                            /* curves are drawn: with more points than a short table has */
+    bool scene;          /* the same with the observables of the analysis file */
+    bool draw;           /* also follows what is drawn (one motion with all columns) */
+    bool picture;        /* curves are drawn: with more points than a short table has */
     /* projects: moves velocities that violate the constraints onto them */
     bool until_given, tolerance_given, project;
-    double step;                             /* output spacing; 0: a hundredth of the time */
-    const nh_method *method;                 /* NULL: a suitable one, or with an accuracy the cheapest */
-    size_t methods;                          /* for a comparison: only these methods; 0: all */
+    double step;             /* output spacing; 0: a hundredth of the time */
+    const nh_method *method; /* NULL: a suitable one, or with an accuracy the cheapest */
+    size_t methods;          /* for a comparison: only these methods; 0: all */
     const nh_method *const *only;
     /* the requested accuracy of what is printed; 0: options.tolerance, unchecked */
     double accuracy;
-    size_t ensemble;                         /* members; 0: one motion */
-    const nh_simulate_rows *table;           /* their initial states; NULL: around the given one */
+    size_t ensemble;               /* members; 0: one motion */
+    const nh_simulate_rows *table; /* their initial states; NULL: around the given one */
     /* spread of their initial states about the given one, relative to max(|z_i|, 1) */
     double spread;
     nh_options options;
@@ -68,7 +68,7 @@ struct nh_simulation {
     nh_analysis_file *analysis;
     nh_model *model;
     const char *method, *formulation;
-    const char *scene;    /* the smallest model in words; NULL: all states were integrated */
+    const char *scene; /* the smallest model in words; NULL: all states were integrated */
     /* the initial state that was chosen where none was given, as after --initial; NULL: it was given */
     const char *begin;
     /* which constraint between positions the initial position violates, and by how much; NULL: none */
@@ -78,30 +78,30 @@ struct nh_simulation {
     const char *chosen;
     /* parameters and bodies without influence on the observables, in words; empty: all of them have */
     const char *idle;
-    bool compared;        /* the whole model was integrated too, because the motion is short */
+    bool compared; /* the whole model was integrated too, because the motion is short */
     /* the least times of both, and the largest difference of the observables, relative to their size along the
      * motion */
     double scene_seconds, whole_seconds, whole_difference;
     long whole_evaluations;
-    nh_observables columns;    /* the drawing only if it was requested, at the end */
-    size_t events;             /* those of --event, then that of --section */
+    nh_observables columns; /* the drawing only if it was requested, at the end */
+    size_t events;          /* those of --event, then that of --section */
     nh_simulated_event *event;
     bool has_section;
-    bool has_axes;        /* of --axes */
-    int axis[2];          /* columns of the picture; of a section, of --axes, or of several motions */
+    bool has_axes;                 /* of --axes */
+    int axis[2];                   /* columns of the picture; of a section, of --axes, or of several motions */
     const nh_simulate_rows *table; /* of the request */
-    nh_motion *motion;    /* its states are those of the closed subsystem, where there is one */
-    double *value;        /* motion->count x columns.count, row by row */
-    nh_programs *programs; /* for a method with fixed steps */
-    nh_trajectory *trajectory; /* owns the last two */
-    nh_trajectory *drawn;      /* the same motion with more outputs, for pictures; NULL: the table has enough */
-    double tolerance, fixed_step; /* fixed_step: of a method that has one; 0: steps follow the tolerance */
-    nh_ensemble *ensemble;     /* an ensemble instead of motion, value and trajectory; NULL: one motion */
-    bool checked, held;        /* an accuracy was requested; it was reached */
-    const char *why;           /* then: by which method, or why not */
-    nh_choice ways;            /* with an accuracy: the candidates */
-    double deriving;           /* units of effort for the derivation of the model */
-    nh_accuracy accuracy;                 /* error of the one motion */
+    nh_motion *motion;             /* its states are those of the closed subsystem, where there is one */
+    double *value;                 /* motion->count x columns.count, row by row */
+    nh_programs *programs;         /* for a method with fixed steps */
+    nh_trajectory *trajectory;     /* owns the last two */
+    nh_trajectory *drawn;          /* the same motion with more outputs, for pictures; NULL: the table has enough */
+    double tolerance, fixed_step;  /* fixed_step: of a method that has one; 0: steps follow the tolerance */
+    nh_ensemble *ensemble;         /* an ensemble instead of motion, value and trajectory; NULL: one motion */
+    bool checked, held;            /* an accuracy was requested; it was reached */
+    const char *why;               /* then: by which method, or why not */
+    nh_choice ways;                /* with an accuracy: the candidates */
+    double deriving;               /* units of effort for the derivation of the model */
+    nh_accuracy accuracy;          /* error of the one motion */
     nh_ensemble_accuracy accuracy_of_all; /* errors of the ensemble */
 };
 

@@ -248,8 +248,8 @@ nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice c
                 nh_analysis_file_to_chart(v->model, e, &v->current, error);
     if (good) {
         v->current = nh_simplify(v->model->dag, v->current);
-        good = nh_verification_decide(v, options, error) &&
-               (!v->conserved || nh_verification_describe(v, options, error));
+        good =
+            nh_verification_decide(v, options, error) && (!v->conserved || nh_verification_describe(v, options, error));
         if (good) ask_other_branch(v, e, options);
     }
     return nh_verification_complete(v, good, error);

@@ -14,33 +14,33 @@ struct nh_verification {
     nh_model *model;
     /* in the chart; for a field: its current alpha(Z), if it lies in the canonical distribution */
     nh_ex current;
-    nh_ex *form;              /* for a field: i_Z phi^a, one for each constraint; else NULL */
-    bool outside;             /* for a field: these do not vanish, so Z is not in the canonical distribution */
+    nh_ex *form;  /* for a field: i_Z phi^a, one for each constraint; else NULL */
+    bool outside; /* for a field: these do not vanish, so Z is not in the canonical distribution */
     /* for a field: the question is whether it is a symmetry of the equations of motion, [Gamma,Z] = f Gamma, and not a
      * constraint symmetry */
     bool of_equations;
-    nh_ex factor;             /* then: f = Gamma(Z^0); `current` has no meaning */
+    nh_ex factor; /* then: f = Gamma(Z^0); `current` has no meaning */
     /* then: known currents of the system file, and Z(Phi) of each, which is a current, too [CechMusilova2014, sec.
      * 3.3] */
     size_t made;
     nh_named *make;
-    bool conserved;           /* or: it is a symmetry */
+    bool conserved; /* or: it is a symmetry */
     /* where a current is conserved in a part of the motions only (integrals/region.h); then `conserved` is false,
      * unless motions end with that part */
     const char *region;
-    bool trivial;             /* the current is constant */
+    bool trivial; /* the current is constant */
     /* branch of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */
     const char *branch, *other_branch;
-    bool on_both;             /* the current is conserved on the other branch, too */
+    bool on_both; /* the current is conserved on the other branch, too */
     bool has_symmetry;
     nh_symmetry symmetry;
     struct nh_theory *theory; /* the geometry, if it was requested; else NULL */
     nh_model *other;          /* then: the chart of coordinate velocities, for a chart of quasi-velocities; or NULL */
     nh_proof proof;
-    double residual;          /* largest relative rate at random points */
+    double residual; /* largest relative rate at random points */
     bool has_counterexample;
-    double *counterexample;   /* model->width values (t, q, w, u) */
-    double rate;              /* Gamma(Phi), or the violated equation, there */
+    double *counterexample; /* model->width values (t, q, w, u) */
+    double rate;            /* Gamma(Phi), or the violated equation, there */
     /* for a field: which expression does not vanish, as a label of document/notation.h, and the equation's number in
      * [CechMusilova2014], or 0 */
     const char *equation;

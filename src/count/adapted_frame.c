@@ -15,8 +15,8 @@ typedef struct {
     /* rank at which the search stops: the number of coordinates, or the rank that was found before */
     size_t all, wanted, count;
     size_t *weight;
-    nh_residue *field;         /* wanted x all series */
-    nmod_mat_t rows;           /* their values at the point, in echelon form */
+    nh_residue *field; /* wanted x all series */
+    nmod_mat_t rows;   /* their values at the point, in echelon form */
 } frame_list;
 
 /* [X, Y]^k = X^j d_j Y^k - Y^j d_j X^k */

@@ -13,18 +13,18 @@
 #include "count/jet_equations.h"
 
 typedef struct {
-    size_t index;             /* j */
-    const uint8_t *exponent;  /* alpha, over the kept coordinates */
+    size_t index;            /* j */
+    const uint8_t *exponent; /* alpha, over the kept coordinates */
     nh_residue coefficient;
 } nh_frame_correction;
 
 typedef struct {
     nh_jet_equations *equations;
     nh_arena *arena;
-    size_t all, kept;         /* number of coordinates; of those along the leaf, which come first */
-    size_t *weight;           /* kept */
-    size_t step;              /* the largest weight */
-    nh_residue *to, *from;    /* all x all: q - q0 = to y, and its inverse */
+    size_t all, kept;      /* number of coordinates; of those along the leaf, which come first */
+    size_t *weight;        /* kept */
+    size_t step;           /* the largest weight */
+    nh_residue *to, *from; /* all x all: q - q0 = to y, and its inverse */
     size_t corrections;
     nh_frame_correction *correction;
 } nh_adapted_frame;

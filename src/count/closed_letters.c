@@ -92,11 +92,15 @@ static void take_function(const nh_jet_equations *x, nh_letters *l, nh_ex e)
     double sign;
     if (!of_position(x, e)) return;
     switch (nh_function_of(d, e)) {
-    case NH_SIN: case NH_COS: case NH_TAN:
+    case NH_SIN:
+    case NH_COS:
+    case NH_TAN:
         found = direction(d, l, NH_LETTER_CIRCLE, nh_child(d, e, 0), &sign);
         if (found && nh_function_of(d, e) == NH_TAN) found->down = fmax(found->down, least_down);
         break;
-    case NH_SINH: case NH_COSH: case NH_TANH:
+    case NH_SINH:
+    case NH_COSH:
+    case NH_TANH:
         found = direction(d, l, NH_LETTER_EXPONENTIAL, nh_child(d, e, 0), &sign);
         if (found) found->down = fmax(found->down, least_down);
         break;
@@ -104,7 +108,9 @@ static void take_function(const nh_jet_equations *x, nh_letters *l, nh_ex e)
         found = direction(d, l, NH_LETTER_EXPONENTIAL, nh_child(d, e, 0), &sign);
         if (found && sign < 0) found->down = fmax(found->down, least_down);
         break;
-    case NH_ABS: case NH_SIGN: case NH_PI: break;
+    case NH_ABS:
+    case NH_SIGN:
+    case NH_PI: break;
     default: letter_of(l, NH_LETTER_POWER, e);
     }
 }

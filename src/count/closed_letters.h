@@ -9,15 +9,15 @@ typedef enum { NH_LETTER_POWER, NH_LETTER_CIRCLE, NH_LETTER_EXPONENTIAL } nh_let
 
 typedef struct {
     nh_letter_kind kind;
-    nh_ex base;           /* what is taken to a power; or the argument of sin, cos, exp */
-    int64_t root;         /* exponents are multiples of 1/root */
+    nh_ex base;   /* what is taken to a power; or the argument of sin, cos, exp */
+    int64_t root; /* exponents are multiples of 1/root */
     /* lowest and highest exponent in the system: an exponent is priced relative to these, or higher; 0: it does not
      * occur */
     double up, down;
-    double down_sine;     /* of the sine; of cosines `down` holds the lowest exponent */
-    nh_ex unit;           /* a root in the base that the equations do not contain, which sines take; 0: none */
-    int64_t known;        /* powers up to this one have the rates of integrals in t, and no price; 0: not known */
-    bool linear;          /* its whole powers are polynomials in the coordinates, which are letters themselves */
+    double down_sine; /* of the sine; of cosines `down` holds the lowest exponent */
+    nh_ex unit;       /* a root in the base that the equations do not contain, which sines take; 0: none */
+    int64_t known;    /* powers up to this one have the rates of integrals in t, and no price; 0: not known */
+    bool linear;      /* its whole powers are polynomials in the coordinates, which are letters themselves */
 } nh_letter;
 
 typedef struct {

@@ -149,8 +149,7 @@ static bool next_choice(const nh_closed_words *w, size_t most_factors, size_t *a
 static bool is_wanted(const nh_closed_words *w, const nh_closed_weights *wanted, const size_t *at)
 {
     nh_residue sum = 0;
-    for (size_t i = 0; i < w->letters; i++)
-        sum = nh_residue_add(wanted->field, sum, w->letter[i].power[at[i]].weight);
+    for (size_t i = 0; i < w->letters; i++) sum = nh_residue_add(wanted->field, sum, w->letter[i].power[at[i]].weight);
     for (size_t i = 0; i < wanted->count; i++)
         if (wanted->weight[i] == sum) return true;
     return false;
@@ -340,8 +339,7 @@ nh_ex nh_closed_words_expression(const nh_closed_words *w, size_t word)
 /* ---- independent words ---- */
 
 /* The values of all words at the point of the equations.  False: the point is not regular. */
-static bool values_at(const nh_closed_words *w, const nh_jet_ring *point, nh_residue *value,
-                      nh_residue *out)
+static bool values_at(const nh_closed_words *w, const nh_jet_ring *point, nh_residue *value, nh_residue *out)
 {
     nh_jet_equations *x = w->equations;
     nh_jet_eval *v = nh_jet_equations_eval(x, point, x->at);
@@ -431,8 +429,8 @@ static bool powers(const nh_closed_words *w, nh_jet_eval *v, const nh_jet_ring *
     return good;
 }
 
-bool nh_closed_words_evaluate(const nh_closed_words *w, const nh_jet_ring *ring,
-                                     const nh_residue *coordinate, nh_residue *out, double *work)
+bool nh_closed_words_evaluate(const nh_closed_words *w, const nh_jet_ring *ring, const nh_residue *coordinate,
+                              nh_residue *out, double *work)
 {
     nh_residue **series = nh_alloc_array(w->letters + 1, sizeof *series),
                *both = nh_alloc_array(ring->size, sizeof *both);

@@ -24,7 +24,7 @@
 #include "count/scaling.h"
 
 typedef struct {
-    nh_ex shown, value;   /* with parameters as symbols; as it is evaluated */
+    nh_ex shown, value; /* with parameters as symbols; as it is evaluated */
     double price;
     uint32_t coordinates; /* a set of bits: the coordinates on which it depends */
     bool plain;           /* a polynomial in coordinates, sines and cosines */
@@ -38,13 +38,13 @@ typedef struct {
 
 typedef struct {
     nh_jet_equations *equations;
-    double most;          /* the largest price */
+    double most; /* the largest price */
     size_t letters, capacity;
     nh_closed_letter *letter;
-    bool independent;     /* whatever words are listed, they are linearly independent */
+    bool independent; /* whatever words are listed, they are linearly independent */
     size_t words;
-    uint16_t *choice;     /* words x letters: the index of the power of each letter */
-    double *price;        /* price per word */
+    uint16_t *choice; /* words x letters: the index of the power of each letter */
+    double *price;    /* price per word */
 } nh_closed_words;
 
 /* The letters with their powers up to a price, and no words yet; `secular`, `rates`: closed_letters.h.  All letters are
@@ -80,7 +80,7 @@ nh_residue nh_closed_words_weight(const nh_closed_words *words, nh_prime field, 
 nh_ex nh_closed_words_expression(const nh_closed_words *words, size_t word);
 
 /* The series of all words, one after another.  False: another point is needed.  `work` counts products of residues. */
-bool nh_closed_words_evaluate(const nh_closed_words *words, const nh_jet_ring *ring,
-                                     const nh_residue *coordinate, nh_residue *out, double *work);
+bool nh_closed_words_evaluate(const nh_closed_words *words, const nh_jet_ring *ring, const nh_residue *coordinate,
+                              nh_residue *out, double *work);
 
 #endif

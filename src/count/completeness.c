@@ -186,7 +186,7 @@ static void coordinates_words(const nh_completeness *c, const char *coefficients
 {
     const char *most = c->degree > 1 ? "at most " : "", *before = c->count.where ? " " : "",
                *where = c->count.where ? c->count.where : "",
-               *found = !c->regional      ? "those found"
+               *found = !c->regional       ? "those found"
                         : c->only_regional ? "those that are constant in a region only"
                                            : "those found and of those that are constant in a region only";
     if (c->degree && c->count.row[c->degree - 1].bound == 1)
@@ -247,11 +247,9 @@ void nh_completeness_words(const nh_completeness c[NH_COMPLETENESS_KINDS], size_
         nh_text_addf(out, " The %zu current%s that %s certified, not proved, may be among them.", uncertain,
                      plural(uncertain), uncertain == 1 ? "is" : "are");
     if (first == time || !time->counted || time->count.obstacle) return;
-    if (time->degree)
-        nh_text_addf(out, " With time in the coefficients: complete to degree %zu", time->degree);
+    if (time->degree) nh_text_addf(out, " With time in the coefficients: complete to degree %zu", time->degree);
     if (time->degree && time->regional) nh_text_add(out, ", with those that are constant in a region only");
-    if (time->degree && ended_by_work(time))
-        nh_text_addf(out, "; degree %zu %s", time->count.rows + 1, more_work);
+    if (time->degree && ended_by_work(time)) nh_text_addf(out, "; degree %zu %s", time->count.rows + 1, more_work);
     if (time->degree && !time->missing_at) nh_text_add(out, ".");
     if (!time->missing_at) return;
     nh_text_add(out, time->degree ? ";" : " With time in the coefficients:");

@@ -12,10 +12,10 @@
 enum { NH_COMPLETE_IN_COORDINATES, NH_COMPLETE_IN_TIME, NH_COMPLETENESS_KINDS };
 
 typedef struct {
-    bool counted;           /* this kind was counted */
-    nh_count count;         /* count for the parameters' values */
-    size_t asked;           /* the degree that the user chose, or 0 */
-    size_t degree;          /* complete up to this degree; 0: not even for the first */
+    bool counted;   /* this kind was counted */
+    nh_count count; /* count for the parameters' values */
+    size_t asked;   /* the degree that the user chose, or 0 */
+    size_t degree;  /* complete up to this degree; 0: not even for the first */
     /* true: it is proved that all integrals up to this degree are polynomials in the known ones; false: a rank at one
      * point shows that they are functions of them */
     bool linear;
@@ -23,9 +23,9 @@ typedef struct {
     bool regional, only_regional;
     /* there can be no other functionally independent integrals: all are functions of the known ones */
     bool all;
-    bool generic;           /* completeness also for algebraically independent parameters, as far as it was asked */
-    size_t missing_at;      /* the lowest degree at which the bound is not reached, or 0 */
-    size_t missing;         /* at most so many functionally independent integrals are missing there */
+    bool generic;      /* completeness also for algebraically independent parameters, as far as it was asked */
+    size_t missing_at; /* the lowest degree at which the bound is not reached, or 0 */
+    size_t missing;    /* at most so many functionally independent integrals are missing there */
     /* the lowest degree at which the known integrals and their products are fewer than the bound, or 0 */
     size_t incomplete_at;
     /* that bound did not change over the last orders: more work would hardly lower it */
@@ -36,16 +36,16 @@ typedef struct {
 typedef struct {
     size_t known;
     const nh_ex *current;
-    size_t independent;     /* how many of these */
-    size_t regional;        /* the last so many are constant in a region only, and independent */
-    bool general;           /* their number without those of a region; all of them hold for all parameters */
+    size_t independent; /* how many of these */
+    size_t regional;    /* the last so many are constant in a region only, and independent */
+    bool general;       /* their number without those of a region; all of them hold for all parameters */
     bool regional_general;
-    bool all;               /* it is known that there are no more functionally independent ones */
-    size_t until_missing;   /* no degrees beyond the first one, from this one on, that misses functions; 0: all */
-    unsigned kinds;         /* bit k: of kind k; 0: all.  The others are left as they are */
-    size_t degree;          /* highest degree; 0: chosen here */
+    bool all;             /* it is known that there are no more functionally independent ones */
+    size_t until_missing; /* no degrees beyond the first one, from this one on, that misses functions; 0: all */
+    unsigned kinds;       /* bit k: of kind k; 0: all.  The others are left as they are */
+    size_t degree;        /* highest degree; 0: chosen here */
     double work;
-    size_t threads;         /* 0: one */
+    size_t threads;          /* 0: one */
     nh_count_memory *memory; /* keeps counts for the next call; NULL: nothing is kept */
 } nh_completeness_question;
 

@@ -116,7 +116,7 @@ static nh_residue *in_words(const nh_construct_attempt *a, size_t part, size_t r
 
 /* The rows of one echelon form that are new. */
 typedef struct {
-    nh_residue *row;      /* rows x (terms + N) */
+    nh_residue *row; /* rows x (terms + N) */
     /* index of the terms; which rows; how many; the number of their terms together */
     size_t width, *order, *fresh, count, length;
 } representatives;

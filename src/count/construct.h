@@ -14,37 +14,37 @@
 #include "count/count.h"
 
 typedef struct {
-    bool time;              /* coefficients may depend on t */
-    nh_count_shape shape;   /* fewer coordinates allow longer series */
+    bool time;            /* coefficients may depend on t */
+    nh_count_shape shape; /* fewer coordinates allow longer series */
     /* an integral counts as new if it is no polynomial in the known ones, even if it is another function of them */
     bool further;
     const struct nh_construct_rates *rates; /* functions that words may contain beside the system's own, or NULL */
     /* solutions with one weight under a scaling of the equations at a time, where there are scalings: there are fewer
      * words of the weights that their coefficients have, and so dearer ones can be tried */
     bool weights;
-    bool secular;           /* words may contain coordinates that occur only inside of functions */
-    size_t degree;          /* highest degree in the velocities */
-    double price;           /* highest price of a word */
+    bool secular;  /* words may contain coordinates that occur only inside of functions */
+    size_t degree; /* highest degree in the velocities */
+    double price;  /* highest price of a word */
     size_t most_words;
-    double work;            /* limit, in products of residues */
-    size_t threads;         /* 0: one */
+    double work;    /* limit, in products of residues */
+    size_t threads; /* 0: one */
     size_t known;
     const nh_ex *current;
-    size_t independent;      /* number of `current` */
+    size_t independent; /* number of `current` */
 } nh_construct_question;
 
 typedef struct {
     size_t terms;
-    nh_ex *term;            /* a word times a monomial in the velocities, without coefficient; the most complex first */
+    nh_ex *term; /* a word times a monomial in the velocities, without coefficient; the most complex first */
 } nh_constructed;
 
 typedef struct {
-    size_t solutions;       /* N */
-    size_t words, order;    /* by weights: the most words of one weight */
+    size_t solutions;             /* N */
+    size_t words, order;          /* by weights: the most words of one weight */
     size_t dimension, recognised; /* how many solutions are looked at; how many of them are recognised */
     size_t count;
-    nh_constructed *item;   /* simplest first */
-    bool limited;           /* stopped: there are too many words, or the work does not suffice */
+    nh_constructed *item; /* simplest first */
+    bool limited;         /* stopped: there are too many words, or the work does not suffice */
     /* by weights: every solution is a sum of solutions with weights, and all letters have weights, so that without
      * weights no more is recognised in words of this price */
     bool whole;

@@ -17,13 +17,13 @@ typedef struct {
     const nh_velocity_frame *frame;
     const nh_scalings *scalings; /* NULL: the words have no weights */
     nh_count_series *series;
-    size_t parts;            /* number of parities */
+    size_t parts; /* number of parities */
     nh_graded_count *solution[2];
-    nh_count_lines lines;    /* number of functionals: more than words and solutions together */
+    nh_count_lines lines; /* number of functionals: more than words and solutions together */
     nh_prime field;
     /* columns: words, then for each parity its coefficients c_alpha of each solution, alpha by alpha */
     size_t width, first[2];
-    nh_residue *value;       /* functionals x width; when words are chosen: those of the words' echelon form */
+    nh_residue *value; /* functionals x width; when words are chosen: those of the words' echelon form */
     /* words that are linearly independent, cheapest first; of the rows of `value` the first ones then give combinations
      * of these words, the others are remainders */
     size_t kept, *chosen;

@@ -168,8 +168,8 @@ typedef struct {
     nh_dag *dag;
     size_t atoms;
     const nh_ex *atom;
-    answer given, generic;  /* at the parameters' values, and for indeterminates */
-    int power[most_atoms];  /* of the monomial at hand */
+    answer given, generic; /* at the parameters' values, and for indeterminates */
+    int power[most_atoms]; /* of the monomial at hand */
 } naming;
 
 static bool fraction(nh_residue value, int64_t longest, nh_prime field, nh_num *out)
@@ -233,8 +233,8 @@ static void put_root(naming *x, size_t at, nh_num multiple)
     under = nh_mul(x->dag, under, nh_int(x->dag, radicand));
     r.root = under != nh_int(x->dag, 1);
     r.unit = nh_mul(x->dag, factor, nh_pow(x->dag, under, nh_ratio(x->dag, 1, 2)));
-    bool other = !r.wave && !r.root &&
-                 nh_residue_mul(field, value, residue_of(field, r.rate)) != x->given.seen.lambda[at];
+    bool other =
+        !r.wave && !r.root && nh_residue_mul(field, value, residue_of(field, r.rate)) != x->given.seen.lambda[at];
     if (!other) put(&x->given.rates, r);
     r.rate.p = -r.rate.p;
     if (!r.wave && (other || r.root)) put(&x->given.rates, r);

@@ -22,8 +22,8 @@ enum { NH_MOST_CONSTRUCT_RATES = 16 };
 typedef struct {
     nh_ex coordinate;
     nh_num rate;
-    nh_ex unit;    /* of numbers and parameters */
-    bool root;     /* the unit has a square root, which the equations do not contain */
+    nh_ex unit; /* of numbers and parameters */
+    bool root;  /* the unit has a square root, which the equations do not contain */
     bool wave;
 } nh_construct_rate;
 

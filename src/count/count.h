@@ -19,45 +19,45 @@ enum { NH_COUNT_HIGHEST_DEGREE = 12 };
 
 typedef struct {
     size_t degree;
-    size_t bound;           /* N, the constant 1 included */
-    size_t known;           /* linearly independent products of known integrals of at most this degree, 1 included */
+    size_t bound; /* N, the constant 1 included */
+    size_t known; /* linearly independent products of known integrals of at most this degree, 1 included */
     /* how many of these are products of integrals of lower degree: bound - lower are new at this degree when it is
      * complete */
     size_t lower;
     /* rank, at a point modulo the prime, of the differentials of the solutions together with those of the known
      * integrals of any degree */
     size_t rank;
-    size_t known_rank;      /* rank of the known ones alone */
-    size_t order;           /* r */
-    size_t reached;         /* the lowest order from which on N does not change */
-    bool bounded;           /* the symbol was injective below this order: `bound` is an upper bound */
-    bool settled;           /* N did not change over the last orders; otherwise higher orders may lower it */
-    bool complete;          /* bound == known: all are polynomials in the known ones */
+    size_t known_rank; /* rank of the known ones alone */
+    size_t order;      /* r */
+    size_t reached;    /* the lowest order from which on N does not change */
+    bool bounded;      /* the symbol was injective below this order: `bound` is an upper bound */
+    bool settled;      /* N did not change over the last orders; otherwise higher orders may lower it */
+    bool complete;     /* bound == known: all are polynomials in the known ones */
     /* rank == known_rank: as far as this point tells, all integrals are functions of the known ones */
     bool functions;
 } nh_count_row;
 
 typedef struct {
-    bool time;              /* coefficients may depend on t */
-    bool generic;           /* counted for algebraically independent parameters, otherwise for their given values */
+    bool time;    /* coefficients may depend on t */
+    bool generic; /* counted for algebraically independent parameters, otherwise for their given values */
     size_t rows;
     nh_count_row row[NH_COUNT_HIGHEST_DEGREE]; /* of degrees 1, 2, .. */
-    size_t step;            /* the largest weight: brackets of this length span everything */
-    size_t weights;         /* their sum over the coordinates: where it and `leaf` agree, so do all ranks of brackets */
+    size_t step;                               /* the largest weight: brackets of this length span everything */
+    size_t weights; /* their sum over the coordinates: where it and `leaf` agree, so do all ranks of brackets */
     /* the first degree that is counted by the frequencies of linear equations; such rows are exact and not bounds, with
      * order 0; 0: none */
     size_t linear;
-    size_t leaf;            /* coordinates across the leaves of integrable constraints */
-    size_t without;         /* so many coordinates were left out, because no integral of the last degree depends on them */
+    size_t leaf;    /* coordinates across the leaves of integrable constraints */
+    size_t without; /* so many coordinates were left out, because no integral of the last degree depends on them */
     const char *const *without_name;
     uint64_t prime;
-    double work;            /* work so far in products of residues, about */
+    double work; /* work so far in products of residues, about */
     /* "for x > 0 and y < 0": the equations are defined piece by piece and were counted on this side; NULL:
      * everywhere */
     const char *where;
-    const char *obstacle;   /* why nothing was counted, or NULL */
-    const char *end;        /* why no higher degree was counted, or NULL */
-    bool more;              /* higher degrees were left out, because functions are missing */
+    const char *obstacle; /* why nothing was counted, or NULL */
+    const char *end;      /* why no higher degree was counted, or NULL */
+    bool more;            /* higher degrees were left out, because functions are missing */
 } nh_count;
 
 /* Keeps the solutions of a system for further questions about it with other known integrals, on any thread.  It saves
@@ -73,19 +73,19 @@ typedef enum { NH_EVERY_COORDINATE, NH_NOT_CYCLIC, NH_CLOSED_SHAPE } nh_count_sh
 
 typedef struct {
     bool time, generic;
-    bool timeless;          /* nothing is counted where the equations depend on time: there are no rows */
-    nh_count_shape shape;   /* known integrals that depend on other coordinates are left out */
-    size_t idle;            /* cyclic coordinates that are left out beside those of the shape */
+    bool timeless;        /* nothing is counted where the equations depend on time: there are no rows */
+    nh_count_shape shape; /* known integrals that depend on other coordinates are left out */
+    size_t idle;          /* cyclic coordinates that are left out beside those of the shape */
     const nh_ex *idle_coordinate;
     nh_count_memory *memory; /* NULL: nothing is kept */
-    size_t threads;         /* 0: one; the answer does not depend on it */
-    size_t degree;          /* highest degree; 0: as high as `work` allows */
+    size_t threads;          /* 0: one; the answer does not depend on it */
+    size_t degree;           /* highest degree; 0: as high as `work` allows */
     /* counts this degree only, until all solutions are functions of the known integrals: row[0]; products are not
      * compared */
     bool alone;
-    size_t until_missing;   /* no degrees beyond the first one, from this one on, that misses functions; 0: all */
-    double work;            /* limit in products of residues; about 5e8 take a second */
-    double first_work;      /* the same until a degree has a bound at all, where it is larger */
+    size_t until_missing; /* no degrees beyond the first one, from this one on, that misses functions; 0: all */
+    double work;          /* limit in products of residues; about 5e8 take a second */
+    double first_work;    /* the same until a degree has a bound at all, where it is larger */
     size_t known;
     /* known integrals in t, q, w; those that are not polynomial in the velocities are left out */
     const nh_ex *current;
@@ -98,7 +98,7 @@ typedef struct {
  * the leading one last. */
 typedef struct {
     size_t terms;
-    uint8_t *exponent;      /* terms x known */
+    uint8_t *exponent; /* terms x known */
 } nh_count_relation;
 
 /* Finds the relations, modulo a prime and of at most this degree in the velocities, among currents that are polynomial

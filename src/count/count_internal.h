@@ -11,12 +11,12 @@ typedef struct {
     nh_adapted_frame *frame;
     /* degree; 0: not polynomial in the velocities, or depending on a time that is no coordinate */
     size_t known, *degree;
-    size_t *index;           /* indices in the question's list */
-    size_t *failed;          /* number of points at which it could not be evaluated */
-    nh_ex *current, *slope;  /* slope: d current/d w, n each */
-    bool *named;             /* contains named functions; each represents any solution of its equation */
-    nh_ex *rate;             /* Gamma of these: it must vanish for every such solution */
-    bool unnamed;            /* currents with named functions are left out */
+    size_t *index;          /* indices in the question's list */
+    size_t *failed;         /* number of points at which it could not be evaluated */
+    nh_ex *current, *slope; /* slope: d current/d w, n each */
+    bool *named;            /* contains named functions; each represents any solution of its equation */
+    nh_ex *rate;            /* Gamma of these: it must vanish for every such solution */
+    bool unnamed;           /* currents with named functions are left out */
     /* the equations left coordinates out (turned_translations.h), and no integral of this degree is linear in them */
     bool unextended;
     double work, most; /* products of residues so far, and at most */
@@ -36,7 +36,7 @@ bool nh_count_regular_point(nh_counter *counter, size_t attempt);
 typedef struct {
     nh_jet_ring *ring;
     nh_residue *coordinate, *field, *rate; /* adapted_frame.h, jet_equations.h */
-    bool split;              /* solutions are even or odd in the velocities */
+    bool split;                            /* solutions are even or odd in the velocities */
 } nh_count_series;
 
 /* The caller frees it.  NULL: the series are too long, or the point is not `regular`. */
@@ -70,7 +70,7 @@ bool nh_count_take_known(nh_counter *counter);
 /* Products of the known integrals up to a degree, 1 first; empty when there are too many. */
 typedef struct {
     size_t count;
-    uint8_t *exponent; /* count x known */
+    uint8_t *exponent;       /* count x known */
     size_t *before, *factor; /* each product is product number `before` times integral number `factor`; except for 1 */
     bool *is_factor;         /* of another product: it is `before` one */
 } nh_count_monomials;
@@ -103,7 +103,7 @@ void nh_count_lines_values(const nh_count_lines *lines, const nh_jet_ring *ring,
 /* Random linear functionals of polynomials in the velocities whose coefficients are series: each takes its own
  * velocities and a curve z_k = v_k s^(weight_k) and combines the coefficients of the series in s. */
 typedef struct {
-    size_t count, n, size, order; /* number of coefficients of the series */
+    size_t count, n, size, order;   /* number of coefficients of the series */
     nh_residue *w, *curve, *weight; /* count x n; count x size: v^e; count x (order + 1) */
 } nh_count_functionals;
 

@@ -26,9 +26,9 @@
 typedef struct {
     nh_counter *c;
     size_t n;
-    nh_ex *K;               /* n x n, row by row */
+    nh_ex *K;                 /* n x n, row by row */
     double *frequency, error; /* values of a linear function at sigma_i, and their error */
-    double work;            /* products */
+    double work;              /* products */
 } linear;
 
 /* ---- the equations ---- */
@@ -79,8 +79,7 @@ static bool read_frequencies(linear *l)
     const nh_model *o = x->model;
     double *re = nh_alloc_array(2 * l->n + 1, sizeof *re), *im = re + l->n;
     nh_ball *ball = nh_ball_create(x->dag, bits);
-    for (size_t k = 0; k < o->system->parameters; k++)
-        nh_ball_set_double(ball, o->parameter[k], o->parameter_value[k]);
+    for (size_t k = 0; k < o->system->parameters; k++) nh_ball_set_double(ball, o->parameter[k], o->parameter_value[k]);
     bool good = nh_ball_eigenvalue_roots(ball, l->n, x->M, l->K, re, im, &l->error);
     for (size_t i = 0; i < l->n && good; i++) l->frequency[i] = im[i] + slope * re[i];
     l->error *= 4;
@@ -99,8 +98,8 @@ static size_t list_sums(const linear *l, size_t i, size_t left, double sum, size
     for (; i < l->n && left && count < most; i++)
         for (size_t k = 1; k <= left; k++)
             for (int sign = -1; sign <= 1; sign += 2)
-                count += list_sums(l, i + 1, left - k, sum + (double)sign * (double)k * l->frequency[i],
-                                   most - count, out ? out + count : NULL);
+                count += list_sums(l, i + 1, left - k, sum + (double)sign * (double)k * l->frequency[i], most - count,
+                                   out ? out + count : NULL);
     return count;
 }
 
@@ -136,8 +135,7 @@ static void set_matrix(const nh_jet_equations *x, nh_jet_eval *v, const nh_jet_r
                        nh_residue *series, nmod_mat_t out, bool *good)
 {
     *good = *good && nh_jet_eval_all(v, x->n * x->n, e, series);
-    for (size_t i = 0; i < x->n * x->n && *good; i++)
-        nmod_mat_entry(out, i / x->n, i % x->n) = series[i * ring->size];
+    for (size_t i = 0; i < x->n * x->n && *good; i++) nmod_mat_entry(out, i / x->n, i % x->n) = series[i * ring->size];
 }
 
 /* dE = (-K A^k q, M A^k q') for k = 0 .. n - 1 with A = M^-1 K, along the coordinates of the frame; z = (q, q'), q

@@ -36,7 +36,8 @@ static void find_factors(nh_count_monomials *p, size_t known)
         while (!p->exponent[i * known + k]) k++;
         memcpy(less, p->exponent + i * known, known);
         less[k]--;
-        while (before-- > 0 && memcmp(p->exponent + before * known, less, known) != 0) {}
+        while (before-- > 0 && memcmp(p->exponent + before * known, less, known) != 0) {
+        }
         p->before[i] = before;
         p->is_factor[before] = true;
         p->factor[i] = k;
@@ -134,8 +135,7 @@ bool nh_count_product_values(nh_counter *c, const nh_jet_ring *ring, const nh_re
         nh_jet_eval *v = nh_jet_equations_eval(x, line, q);
         nh_jet_equations_velocities(x, v, line, f->w + j * f->n);
         good = c->known == 0 || nh_jet_eval_all(v, c->known, c->current, phi);
-        if (good)
-            values_along(line, p, c->known, phi, f->weight + j * line->size, product, f->count, out + j);
+        if (good) values_along(line, p, c->known, phi, f->weight + j * line->size, product, f->count, out + j);
         c->work += (double)p->count * (double)line->pairs[line->size] + (double)all * (double)ring->size;
         nh_jet_eval_free(v);
     }

@@ -25,17 +25,17 @@ typedef struct {
 
 typedef struct {
     size_t rows, columns, rank;
-    size_t *equation;         /* of each row */
-    size_t *unknown;          /* of each column */
-    nh_graded_cell **cells, *spare;     /* spare: a replaced row whose memory serves the next one */
-    size_t *room, spare_room; /* length of each row; room of the spare one */
-    size_t *length, *count;   /* number of entries of each row; number of remaining rows that have this column */
-    bool *done, *pivoted;     /* rows used as pivots; columns */
+    size_t *equation;               /* of each row */
+    size_t *unknown;                /* of each column */
+    nh_graded_cell **cells, *spare; /* spare: a replaced row whose memory serves the next one */
+    size_t *room, spare_room;       /* length of each row; room of the spare one */
+    size_t *length, *count;         /* number of entries of each row; number of remaining rows that have this column */
+    bool *done, *pivoted;           /* rows used as pivots; columns */
     size_t *pivot_row, *pivot_column;
-    nh_residue *inverse; /* by which the row's known part is still to be multiplied */
-    nh_graded_row_list *member;    /* for each column: the rows that have it or had it, some more than once */
+    nh_residue *inverse;        /* by which the row's known part is still to be multiplied */
+    nh_graded_row_list *member; /* for each column: the rows that have it or had it, some more than once */
     nh_graded_lengths rest;
-    double work;         /* of all components so far */
+    double work; /* of all components so far */
 } nh_graded_component;
 
 /* Room for components of at most so many rows and columns; nh_graded_component_clear takes the same numbers. */

@@ -14,7 +14,7 @@ typedef struct nh_graded_term {
     bool derivative;
     size_t index;
     const nh_residue *series;
-    int *alpha;             /* per target monomial beta: the alpha that it comes from, or no_alpha */
+    int *alpha; /* per target monomial beta: the alpha that it comes from, or no_alpha */
 } term;
 
 /* ---- the terms of Gamma ---- */

@@ -7,8 +7,7 @@ void nh_graded_extensions_start(nh_graded_system *s)
     const nh_graded_problem *p = s->p;
     s->extensions = p->left * p->given;
     s->moves = nh_arena_alloc(s->arena, p->left * p->fields + 1);
-    for (size_t i = 0; i < p->left * p->fields; i++)
-        s->moves[i] = !nh_jet_is_zero(s->r, p->left_rate + i * s->r->size);
+    for (size_t i = 0; i < p->left * p->fields; i++) s->moves[i] = !nh_jet_is_zero(s->r, p->left_rate + i * s->r->size);
     for (size_t i = 0; i < s->extensions && !s->over; i++) nh_graded_parameter(s, s->alphas, i);
 }
 

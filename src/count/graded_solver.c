@@ -145,8 +145,7 @@ typedef struct {
 
 static void substitute_in(const nh_graded_system *s, const substitution *u, nh_residue *x)
 {
-    for (size_t q = 0; q < u->rank; q++)
-        u->factor[q] = nh_residue_negative(s->f, x[u->columns - 1 - u->pivot[q]]);
+    for (size_t q = 0; q < u->rank; q++) u->factor[q] = nh_residue_negative(s->f, x[u->columns - 1 - u->pivot[q]]);
     for (size_t j = 0; j < u->kept; j++) x[j] = x[u->from[j]];
     memset(x + u->kept, 0, (s->N - u->kept) * sizeof *x);
     nh_row_sum_add(s->f, u->among, x, u->rank, u->factor, u->condition);

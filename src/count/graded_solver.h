@@ -17,15 +17,15 @@ typedef enum { NH_ALL_DEGREES, NH_EVEN_DEGREES, NH_ODD_DEGREES } nh_parity;
 
 typedef struct {
     const nh_jet_ring *ring;
-    size_t n, fields;           /* velocities; X_1..X_n, and X_0 when fields > n */
-    const nh_residue *field;    /* fields x variables series */
-    const nh_residue *rate;     /* n x monomials series: w^l' (jet_equations.h) */
+    size_t n, fields;        /* velocities; X_1..X_n, and X_0 when fields > n */
+    const nh_residue *field; /* fields x variables series */
+    const nh_residue *rate;  /* n x monomials series: w^l' (jet_equations.h) */
     size_t degree;
-    nh_parity parity;           /* parity of |alpha|; a system splits where every term of Gamma changes it */
-    size_t most_parameters;     /* beyond so many parameters at a time, or so much work, the solver gives up */
-    double most_work;           /* limit in products of residues */
-    size_t threads;             /* 0: one */
-    bool keep;                  /* all coefficients of the solutions are wanted, not only their first jets */
+    nh_parity parity;       /* parity of |alpha|; a system splits where every term of Gamma changes it */
+    size_t most_parameters; /* beyond so many parameters at a time, or so much work, the solver gives up */
+    double most_work;       /* limit in products of residues */
+    size_t threads;         /* 0: one */
+    bool keep;              /* all coefficients of the solutions are wanted, not only their first jets */
     /* solutions of the same problem up to a lower order, to be continued; or 0 of them: start from the point */
     size_t from, from_order, from_size; /* their number; order; coefficients of their series */
     const nh_residue *from_series;      /* alphas x from_size x from */
@@ -35,17 +35,17 @@ typedef struct {
 } nh_graded_problem;
 
 typedef struct {
-    bool solved;                /* false: a limit was reached */
-    size_t order, *total;       /* order + 1: N(r) for r = 0 .. order */
-    bool injective;             /* the symbol was injective, from this weight on: */
-    size_t injective_at;        /* k0 + 1: N(r) is an upper bound for r >= this */
-    size_t unknowns, most;      /* number of coefficients; the largest number of parameters */
-    size_t alphas;              /* number of monomials in the velocities */
-    const uint8_t *alpha;       /* alphas x n: their exponents */
+    bool solved;           /* false: a limit was reached */
+    size_t order, *total;  /* order + 1: N(r) for r = 0 .. order */
+    bool injective;        /* the symbol was injective, from this weight on: */
+    size_t injective_at;   /* k0 + 1: N(r) is an upper bound for r >= this */
+    size_t unknowns, most; /* number of coefficients; the largest number of parameters */
+    size_t alphas;         /* number of monomials in the velocities */
+    const uint8_t *alpha;  /* alphas x n: their exponents */
     /* alphas x (1 + variables) x N(order): c_alpha(0) and its derivatives along the coordinates, for every solution */
     nh_residue *jet;
-    nh_residue *series;         /* alphas x size x N(order), when they are kept: c_alpha */
-    bool extended;              /* some combination of the a_j times the given solutions can be part of one */
+    nh_residue *series; /* alphas x size x N(order), when they are kept: c_alpha */
+    bool extended;      /* some combination of the a_j times the given solutions can be part of one */
     double work;
     nh_arena *arena;
 } nh_graded_count;

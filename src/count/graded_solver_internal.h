@@ -16,26 +16,26 @@ typedef struct {
     nh_prime f;
     nh_arena *arena;
     size_t alphas, betas, terms;
-    uint8_t *alpha, *beta;  /* exponents of w */
+    uint8_t *alpha, *beta; /* exponents of w */
     struct nh_graded_term *t;
     size_t N, before, stride; /* number of parameters now, and before this weight; room for them in a row */
     /* alphas x size x stride: every coefficient in terms of the parameters; then the factors of the a_j times given
      * solutions (left x given) */
     nh_residue *row;
-    size_t extensions;      /* their number */
-    bool *moves;            /* left x fields: a_j' is not zero along this field */
-    nh_residue *condition;  /* conditions x stride: on the first `reached` parameters; not used yet */
+    size_t extensions;     /* their number */
+    bool *moves;           /* left x fields: a_j' is not zero along this field */
+    nh_residue *condition; /* conditions x stride: on the first `reached` parameters; not used yet */
     size_t conditions, reached;
     double work;
-    bool over;              /* a limit was reached */
-    double planned;         /* the most work that was planned for a weight before it was begun */
+    bool over;      /* a limit was reached */
+    double planned; /* the most work that was planned for a weight before it was begun */
     /* of the weight k that is being solved: */
     /* exponents of weight k + 1: their number and the first; equations of weight k */
     size_t k, unknowns_of, first, equations;
-    nh_residue *known;      /* equations x N */
-    nh_graded_entry *symbol;          /* entries by equation */
-    size_t *start;          /* equations + 1: index of the first entry of each */
-    nh_residue **fresh;     /* conditions found at this weight: rows of `known` that are no longer needed there */
+    nh_residue *known;       /* equations x N */
+    nh_graded_entry *symbol; /* entries by equation */
+    size_t *start;           /* equations + 1: index of the first entry of each */
+    nh_residue **fresh;      /* conditions found at this weight: rows of `known` that are no longer needed there */
     size_t fresh_count;
 } nh_graded_system;
 

@@ -209,8 +209,7 @@ static void take_parameters_and_conditions(symbol *x)
                 nh_graded_parameter(s, p->free[j] / s->unknowns_of, s->first + p->free[j] % s->unknowns_of);
             x->width[k] = s->N;
         }
-        for (size_t j = 0; j < p->conditions; j++)
-            s->fresh[s->fresh_count++] = s->known + p->condition[j] * s->before;
+        for (size_t j = 0; j < p->conditions; j++) s->fresh[s->fresh_count++] = s->known + p->condition[j] * s->before;
     }
 }
 

@@ -124,8 +124,7 @@ static void count_factors(const nh_jet_equations *x, size_t n, const nh_ex *e, f
     NH_LIST(found);
     for (size_t i = 0; i < n; i++)
         for (int functions = 0; functions < 2; functions++) {
-            size_t count = functions ? nh_functions_in(x->dag, e[i], &found)
-                                     : nh_products_in(x->dag, e[i], &found);
+            size_t count = functions ? nh_functions_in(x->dag, e[i], &found) : nh_products_in(x->dag, e[i], &found);
             for (size_t j = 0; j < count && f->count < most_nodes; j++) {
                 bool old = false;
                 for (size_t k = 0; k < f->count && !old; k++) old = f->node[k] == found[j];
@@ -404,8 +403,8 @@ bool nh_jet_equations_left(nh_jet_equations *x, const nh_jet_ring *ring, const n
     bool good = linear_parts(x, v, ring, x->left, x->left_rate, part);
     for (size_t a = 0; a < x->left; a++)
         for (size_t i = 0; i < x->fields; i++)
-            memcpy(out + (a * x->fields + i) * ring->size,
-                   part + ((i < x->n ? 1 + i : 0) * x->left + a) * ring->size, ring->size * sizeof *out);
+            memcpy(out + (a * x->fields + i) * ring->size, part + ((i < x->n ? 1 + i : 0) * x->left + a) * ring->size,
+                   ring->size * sizeof *out);
     nh_free(part);
     nh_jet_eval_free(v);
     return good;

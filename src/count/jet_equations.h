@@ -17,23 +17,23 @@ typedef struct {
     nh_dag *dag;
     nh_arena *arena;
     nh_jet_point *point;
-    bool time;               /* time is the first of the coordinates */
-    bool generic;            /* parameters are indeterminates */
+    bool time;                /* time is the first of the coordinates */
+    bool generic;             /* parameters are indeterminates */
     size_t coordinates, n, m; /* m coordinates: without time */
     const nh_ex *coordinate, *w;
     /* rho (m), M (n x n), A (n), in canonical form, with parameters at their values unless generic; the coefficients of
      * A in w (monomials x n) */
     nh_ex *rho, *M, *A, *coefficient;
-    double products;         /* products of series, about, that they take at a point */
-    size_t fields;           /* n, and one more when b is not zero or time is a coordinate */
-    size_t left;             /* cyclic coordinates that were left out, and their rates */
+    double products; /* products of series, about, that they take at a point */
+    size_t fields;   /* n, and one more when b is not zero or time is a coordinate */
+    size_t left;     /* cyclic coordinates that were left out, and their rates */
     const nh_ex *left_coordinate, *left_rate;
     /* the values of the coordinates at the point, then those of the parameters, which matter when these are
      * indeterminates, and of t when it is no coordinate */
     nh_residue *at;
-    bool complete;           /* expressions registered from now on are not part of the equations */
+    bool complete; /* expressions registered from now on are not part of the equations */
     nh_region side;
-    const char *obstacle;    /* why nothing can be counted; NULL */
+    const char *obstacle; /* why nothing can be counted; NULL */
 } nh_jet_equations;
 
 /* Opens the equations; obstacles that do not depend on the point are found here. */

@@ -13,7 +13,7 @@
 #include "integrals/fixed.h"
 
 enum {
-    spare = 8, /* points beyond the number of columns */
+    spare = 8,  /* points beyond the number of columns */
     tries = 40, /* points that are tried for each that is needed: at half of them a root has no value */
     most_parameters = 12,
     most_power = 12, /* of a parameter */

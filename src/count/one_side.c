@@ -59,8 +59,7 @@ nh_ex nh_one_side_of_roots(const nh_model *o, nh_ex e, nh_region *side)
     NH_LIST(base);
     nh_ex outside, inside, before = e;
     e = nh_model_paired_roots(o, e);
-    for (size_t k = 0; k < o->pairs && e != before && side; k++)
-        keep(side, o->pair[k].product, o->pair[k].sign > 0);
+    for (size_t k = 0; k < o->pairs && e != before && side; k++) keep(side, o->pair[k].product, o->pair[k].sign > 0);
     size_t n = o->chart->probes ? nh_radicands_in(d, e, &base) : 0;
     for (size_t i = 0; i < n; i++) {
         bool square = nh_square_split(d, nh_simplify_short(d, base[i], 0), &outside, &inside);

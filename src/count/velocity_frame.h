@@ -12,7 +12,7 @@
 
 typedef struct {
     size_t n;
-    bool trivial;        /* all factors are 1 */
+    bool trivial;         /* all factors are 1 */
     nh_ex *shown, *value; /* f_i: with parameters as symbols, and as it is evaluated */
 } nh_velocity_frame;
 

@@ -24,11 +24,11 @@ typedef struct {
     /* what is left out where the full answer does not fit: SHORT: long formulas; PLAIN: symmetries whose words
      * take a line as well; BARE: formulas with names for their parts; LIST: all sentences */
     enum { FULL, SHORT, PLAIN, BARE, LIST } terse;
-    bool all_proved;        /* every quantity */
-    bool *written;          /* of each: was its formula? */
-    const char *energy;     /* "T + V", or NULL */
-    const char **proof;     /* of each: "for all m, k", or the sentence that says how sure it is */
-    nh_formula_list list;   /* of the quantities, with common names for repeated parts */
+    bool all_proved;      /* every quantity */
+    bool *written;        /* of each: was its formula? */
+    const char *energy;   /* "T + V", or NULL */
+    const char **proof;   /* of each: "for all m, k", or the sentence that says how sure it is */
+    nh_formula_list list; /* of the quantities, with common names for repeated parts */
 } screen;
 
 static void say(const screen *x, size_t indent, nh_text *words) { nh_screen_say(x->out, indent, words); }
@@ -71,12 +71,10 @@ void nh_analysis_answer_headline(const nh_analysis *r, nh_text *out)
     else if (!r->count && r->verdict == NH_NONE) nh_text_add(out, "Nothing that was tried is conserved.");
     else if (!r->count && r->pieces) nh_text_add(out, "Nothing was found that is conserved along all motions.");
     else if (!r->count) nh_text_add(out, "Undecided: nothing was found that is surely conserved.");
-    else if (n == most && n == 1)
-        nh_text_addf(out, "The only conserved quantity that can exist was found%s.", proved);
+    else if (n == most && n == 1) nh_text_addf(out, "The only conserved quantity that can exist was found%s.", proved);
     else if (n == most) nh_text_addf(out, "All %zu conserved quantities that can exist were found%s.", n, proved);
     else if (n == 1 && nh_current_is_energy(&r->found[0]))
-        nh_text_addf(out, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.",
-                     most);
+        nh_text_addf(out, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.", most);
     else
         nh_text_addf(out, "%zu independent conserved quantit%s found. At most %zu can exist.", n,
                      n == 1 ? "y was" : "ies were", most);
@@ -217,7 +215,9 @@ static void put_quantity(const screen *x, size_t k)
     bool written = !f->series && x->list.stands[k] && !(x->terse >= BARE && has_parts(x, k));
     char *formula = written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL;
     x->written[k] = put_formula(x, k + 1, nh_current_label(r, f), formula,
-                                f->series ? "a series (--details)" : nh_current_is_energy(f) ? x->energy : NULL);
+                                f->series                 ? "a series (--details)"
+                                : nh_current_is_energy(f) ? x->energy
+                                                          : NULL);
 }
 
 static bool fits_line(size_t indent, size_t n, const nh_current_words *s, nh_text *out)
@@ -322,7 +322,10 @@ static const char *functions_of(const nh_analysis *r, bool time)
     if (s->coordinates > most_named) return time ? "t and the coordinates" : "the coordinates";
     const char *text = time ? "t" : "";
     for (size_t i = 0; i < s->coordinates; i++)
-        text = nh_arena_printf(r->arena, "%s%s%s", text, !*text ? "" : i + 1 < s->coordinates ? ", " : " and ",
+        text = nh_arena_printf(r->arena, "%s%s%s", text,
+                               !*text                   ? ""
+                               : i + 1 < s->coordinates ? ", "
+                                                        : " and ",
                                s->coordinate[i].name);
     return text;
 }
@@ -342,7 +345,8 @@ void nh_analysis_answer_completeness(const nh_analysis *r, nh_text *out)
     } else {
         nh_text_addf(out,
                      "Nothing else is conserved among polynomials in the velocities up to degree %zu, with any "
-                     "functions of %s as coefficients", c->degree, functions_of(r, c == time));
+                     "functions of %s as coefficients",
+                     c->degree, functions_of(r, c == time));
         bool timed = c != time && time->counted && !time->count.obstacle && time->degree;
         if (timed && time->degree < c->degree)
             nh_text_addf(out, " (up to degree %zu if they may contain t)", time->degree);
@@ -380,8 +384,9 @@ static void motion(const screen *x)
     nh_text words;
     nh_text_init(&words);
     nh_text_addf(&words, "Along a computed motion (t = %.4g to %.4g) ", v->begin, v->end);
-    if (measured < r->count) nh_text_addf(&words, "%zu of them could be followed: %s", measured,
-                                          measured > 1 ? "they change" : "it changes");
+    if (measured < r->count)
+        nh_text_addf(&words, "%zu of them could be followed: %s", measured,
+                     measured > 1 ? "they change" : "it changes");
     else nh_text_add(&words, measured > 1 ? "they change" : "it changes");
     nh_text_addf(&words, " by %s%.2g, relative to %s terms.", measured > 1 ? "at most " : "", worst,
                  measured > 1 ? "their" : "its");
@@ -434,9 +439,10 @@ static void equations(const screen *x, size_t room)
 static void more(const screen *x)
 {
     const nh_analysis *r = x->r;
-    nh_screen_more(x->out, r->motion     ? "symmetries, equations, the motion, checks, the search"
-                           : r->model->k ? "symmetries, equations, constraint forces, checks, the search"
-                                         : "symmetries, equations, checks, the search",
+    nh_screen_more(x->out,
+                   r->motion     ? "symmetries, equations, the motion, checks, the search"
+                   : r->model->k ? "symmetries, equations, constraint forces, checks, the search"
+                                 : "symmetries, equations, checks, the search",
                    "--html FILE the same, with the motion, in a page");
 }
 

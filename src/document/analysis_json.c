@@ -472,10 +472,9 @@ char *nh_analysis_json(const nh_analysis *r)
     nh_analysis_json_validation(r, root);
     nh_analysis_json_figures(r, root);
     nh_json_put_bool(root, "partial", r->partial);
-    nh_run_json(
-        &(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total,
-                  NULL},
-        r->system, root);
+    nh_run_json(&(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown,
+                          r->timing.total, NULL},
+                r->system, root);
     put_timing(&r->timing, root);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);

@@ -54,8 +54,7 @@ static void answer_of_details(nh_pen *p, const nh_analysis *r)
     else
         nh_pen_say(p, "no current%s %s", r->pieces ? " of all motions" : "",
                    r->verdict == NH_NONE ? "in this ansatz" : "so far");
-    nh_pen_say(p, nh_analysis_by_trial(r) ? " (unknowns sought by trial)" : " (search %s)",
-               nh_search_word(r->search));
+    nh_pen_say(p, nh_analysis_by_trial(r) ? " (unknowns sought by trial)" : " (search %s)", nh_search_word(r->search));
     nh_pen_close(p, NH_PEN_ANSWER);
     if (r->count && r->verdict == NH_UNDECIDED)
         nh_pen_words(p, "Not all of them are certified; each card states its certificate.");
@@ -128,8 +127,8 @@ void nh_analysis_write(const nh_analysis *r, nh_pen_style style, nh_text *out)
         return;
     }
     nh_pen pen, *p = &pen;
-    nh_run run = {r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown, r->timing.total,
-                  r->system_words};
+    nh_run run = {r->command,       r->system_path,  r->analysis_path, r->options.seed,
+                  r->options.shown, r->timing.total, r->system_words};
     const nh_chart *chart = r->other && r->other->chart->roots ? r->other->chart : r->model->chart;
     nh_pen_subject subject = {.system = r->system,
                               .analysis = r->analysis,

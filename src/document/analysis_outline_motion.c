@@ -43,8 +43,8 @@ static void second_opinion(nh_pen *p, const nh_analysis *r)
     if (constrained)
         nh_pen_say(p, ", multipliers %s %.2g, and the constraints hold to %.2g", agree(v->multiplier_difference),
                    v->multiplier_difference, v->violation);
-    if (v->multistep) nh_pen_say(p, "; by CVODE Adams states %s %.2g", agree(v->multistep_difference),
-                                  v->multistep_difference);
+    if (v->multistep)
+        nh_pen_say(p, "; by CVODE Adams states %s %.2g", agree(v->multistep_difference), v->multistep_difference);
     nh_pen_say(p, ".");
     nh_pen_close(p, NH_PEN_WORDS);
 }

@@ -100,8 +100,9 @@ static void unknowns(nh_pen *p, const nh_analysis *r)
 {
     for (size_t k = 0; r->hits && k < r->specials; k++)
         for (size_t j = 0; j < r->hits->unknowns; j++) unknown(p, r, &r->special[k], j);
-    if (r->hits && !r->specials) nh_pen_words(p, "No value of the unknowns %sgives a current.",
-                                               nh_analysis_by_trial(r) ? "that was tried " : "");
+    if (r->hits && !r->specials)
+        nh_pen_words(p, "No value of the unknowns %sgives a current.",
+                     nh_analysis_by_trial(r) ? "that was tried " : "");
 }
 
 static void stages(nh_pen *p, const nh_analysis *r)

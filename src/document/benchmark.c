@@ -54,8 +54,14 @@ void nh_benchmark_csv(const nh_benchmark *c, nh_text *out)
                      "reduced,front,note\n");
     for (size_t i = 0; i < c->count; i++) {
         const nh_run_record *m = &c->item[i];
-        const double number[] = {m->tolerance, m->step, m->error, m->worst_drift, m->seconds, (double)m->evaluations,
-                                 m->order ? m->order : NAN, m->observed_order};
+        const double number[] = {m->tolerance,
+                                 m->step,
+                                 m->error,
+                                 m->worst_drift,
+                                 m->seconds,
+                                 (double)m->evaluations,
+                                 m->order ? m->order : NAN,
+                                 m->observed_order};
         nh_escape_csv(m->method, out);
         nh_text_add(out, ",");
         nh_escape_csv(m->formulation, out);

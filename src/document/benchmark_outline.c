@@ -28,8 +28,8 @@ static void answer(nh_pen *p, const nh_benchmark *c)
     nh_pen_close(p, NH_PEN_ANSWER);
     nh_pen_words(p, "One motion, t = %.6g to %.6g, by %s in every formulation, measured on this machine.", c->begin,
                  c->end, c->methods ? "the integrators that were asked for" : "every integrator");
-    nh_pen_words(p, "Reference: {%s}; {%s} agrees to %.1g, so that errors below that cannot be measured.",
-                 c->reference, c->second, c->agreement);
+    nh_pen_words(p, "Reference: {%s}; {%s} agrees to %.1g, so that errors below that cannot be measured.", c->reference,
+                 c->second, c->agreement);
     const char *warning[NH_BENCHMARK_WARNINGS];
     for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++) nh_pen_warning(p, warning[i]);
     if (c->partial) nh_pen_warning(p, "the budget ended before every method had all its runs; --budget allows more");
@@ -280,10 +280,9 @@ static void all_runs(nh_pen *p, const nh_benchmark *c)
     nh_pen_table(p, "All runs", "method|formulation|set to|status|error|drift|seconds|evaluations|note");
     for (size_t i = 0; i < c->count; i++) {
         const nh_run_record *m = &c->item[i];
-        nh_pen_row(p, "%s|{%s}|%s %.3g|!%s|%.2g|%.2g|%.3g|%.10g|%s", m->method, m->formulation,
-                   nh_run_record_set_by(m), nh_run_record_set_to(m),
-                   nh_run_record_status_name(m->status), m->error, m->worst_drift, m->seconds, (double)m->evaluations,
-                   m->note ? m->note : "");
+        nh_pen_row(p, "%s|{%s}|%s %.3g|!%s|%.2g|%.2g|%.3g|%.10g|%s", m->method, m->formulation, nh_run_record_set_by(m),
+                   nh_run_record_set_to(m), nh_run_record_status_name(m->status), m->error, m->worst_drift, m->seconds,
+                   (double)m->evaluations, m->note ? m->note : "");
     }
     nh_pen_table_end(p);
     nh_pen_close(p, NH_PEN_FOLD);

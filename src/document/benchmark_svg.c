@@ -29,7 +29,7 @@ static const char *const dash[dashes] = {"none", "7 3", "2 3", "9 3 2 3", "4 2",
 
 typedef struct {
     double error, seconds; /* not finite: not drawn */
-    bool front, hollow; /* hollow: flagged */
+    bool front, hollow;    /* hollow: flagged */
     const char *note;
 } mark;
 

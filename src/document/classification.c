@@ -137,8 +137,10 @@ static void put_excluded(const nh_classified *x, size_t degree, nh_text *out)
         nh_text_addf(out, " (proved for all transcendental %s and all fractions with terms up to %.1e)", x->over,
                      row->height);
     else
-        nh_text_addf(out, " (proved for all transcendental %s; up to %zu algebraic values, here or at a lower degree, "
-                     "are known modulo primes only)", x->over, row->roots);
+        nh_text_addf(out,
+                     " (proved for all transcendental %s; up to %zu algebraic values, here or at a lower degree, "
+                     "are known modulo primes only)",
+                     x->over, row->roots);
     nh_text_add(out, "\n");
     if (!lifted) return;
     if (row->theorem)

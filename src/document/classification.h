@@ -13,7 +13,6 @@ char *nh_classification_space_json(const nh_classified_space *classified, const 
 
 /* Exactly one of the three is not NULL. */
 void nh_classification_write(const nh_classified *line, const nh_classified_plane *plane,
-                             const nh_classified_space *space,
-                             const nh_run *run, nh_pen_style style, nh_text *out);
+                             const nh_classified_space *space, const nh_run *run, nh_pen_style style, nh_text *out);
 
 #endif

@@ -38,8 +38,7 @@ void nh_classification_excluded(const nh_classified *classified, nh_text *out);
 /* How many values may be special that are known modulo primes only. */
 size_t nh_classification_unlifted(const nh_classified *classified);
 /* Curves or surfaces that are degenerate or undecided. */
-void nh_classification_open_words(const nh_classified *family, size_t count, const nh_plane_curve *curve,
-                                  nh_text *out);
+void nh_classification_open_words(const nh_classified *family, size_t count, const nh_plane_curve *curve, nh_text *out);
 void nh_classification_plane_left(const nh_classified_plane *classified, nh_text *out);
 void nh_classification_plane_excluded(const nh_classified_plane *classified, nh_text *out);
 /* "B = 1, eps = 1/3   (on B - 1 = 0)"; in the family's arena. */
@@ -60,8 +59,8 @@ void nh_classification_write_lines(nh_pen *pen, nh_text *text);
 void nh_classification_write_currents(nh_pen *pen, const nh_analysis *result, size_t count, const size_t *index);
 /* Numbers by degree, from the first degree at which the number differs from that for almost all values. */
 void nh_classification_write_numbers(const nh_classified *classified, nh_pen *pen, size_t rows,
-                                     const nh_classify_number *number,
-                                     size_t first, size_t complete, const size_t *almost_all);
+                                     const nh_classify_number *number, size_t first, size_t complete,
+                                     const size_t *almost_all);
 void nh_classification_write_no_currents(const nh_classified *classified, nh_pen *pen, const char *why);
 void nh_classification_write_value(const nh_classified *classified, nh_pen *pen, const nh_classified_value *at,
                                    size_t first);

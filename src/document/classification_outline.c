@@ -40,8 +40,7 @@ void nh_classification_write_currents(pen *p, const nh_analysis *r, size_t count
 }
 
 void nh_classification_write_numbers(const nh_classified *x, pen *p, size_t rows, const nh_classify_number *n,
-                                     size_t first,
-                        size_t complete, const size_t *almost_all)
+                                     size_t first, size_t complete, const size_t *almost_all)
 {
     nh_text text;
     nh_text_init(&text);
@@ -210,7 +209,7 @@ static void answer(pen *p, const nh_classified *line, const plane *x, const nh_c
     if (y) nh_classification_space_answer(y, p);
     else if (x)
         nh_pen_say(p, "%zu curve%s and %zu point%s with %s", curves, curves == 1 ? "" : "s", x->points,
-                     x->points == 1 ? "" : "s", nh_classification_more(family));
+                   x->points == 1 ? "" : "s", nh_classification_more(family));
     else {
         size_t n = count_line(line), unlifted = nh_classification_unlifted(line);
         if (n) nh_pen_say(p, "%zu value%s of ", n, n == 1 ? "" : "s");
@@ -234,7 +233,7 @@ void nh_classification_write(const nh_classified *line, const plane *x, const nh
         return;
     }
     static const char over_one[] = "almost|For almost all values|excluded|What is "
-        "excluded|system|System|words|Words|repeat|Repeat it";
+                                   "excluded|system|System|words|Words|repeat|Repeat it";
     const nh_classified *family = y ? y->family : x ? x->family : line;
     const nh_analysis *r = family->almost_all;
     nh_pen_subject subject = {.system = r->system,

@@ -12,7 +12,7 @@ typedef struct {
     nh_arena *arena;
     size_t count, capacity;
     nh_curve *curve;
-    double low[2], high[2];  /* ranges of lambda and mu */
+    double low[2], high[2]; /* ranges of lambda and mu */
 } drawing;
 
 /* ---- the window ---- */
@@ -122,16 +122,21 @@ void nh_classification_picture(const plane *x, nh_pen *pen)
         const nh_plane_curve *c = &x->plane->curve[k];
         if (!c->first && !c->degenerate) continue;
         const char *words = nh_classified_surface_words(x->family, &c->polynomial);
-        draw_curve(&d, x, k, c->degenerate ? nh_arena_printf(d.arena, "%s: degenerate", words)
-                   : nh_arena_printf(d.arena, "%s: %zu", words, c->number[rows].bound));
+        draw_curve(&d, x, k,
+                   c->degenerate ? nh_arena_printf(d.arena, "%s: degenerate", words)
+                                 : nh_arena_printf(d.arena, "%s: %zu", words, c->number[rows].bound));
     }
     all_points(&d, x);
     const char *only = d.count == 1 ? d.curve[0].name : NULL; /* the plot has no legend */
     const char *caption =
         nh_arena_printf(d.arena, "Numbers of integrals of degree %zu, with the constant 1%s%s; elsewhere %zu.", rows,
                         only ? ": " : "", only ? only : "", x->plane->row[rows - 1].number.bound);
-    nh_plot plot = {.title = "Where there are more conservation laws", .description = caption, .x_label = x->over[1],
-                    .y_label = x->over[0], .curves = d.count, .curve = d.curve};
+    nh_plot plot = {.title = "Where there are more conservation laws",
+                    .description = caption,
+                    .x_label = x->over[1],
+                    .y_label = x->over[0],
+                    .curves = d.count,
+                    .curve = d.curve};
     if (d.count) pen->ink->plot(pen->to, &plot, caption);
     nh_free(d.curve);
 }

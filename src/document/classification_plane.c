@@ -48,8 +48,7 @@ void nh_classification_open_words(const nh_classified *x, size_t count, const nh
     for (size_t k = 0; k < count; k++)
         if (curve[k].open)
             nh_text_addf(out, "Not decided on %s: how many there are of degree %zu. %s\n",
-                         nh_classified_surface_words(x, &curve[k].polynomial), curve[k].open,
-                         nh_classification_decide);
+                         nh_classified_surface_words(x, &curve[k].polynomial), curve[k].open, nh_classification_decide);
 }
 
 void nh_classification_plane_left(const plane *x, nh_text *out)
@@ -127,10 +126,9 @@ static void put_json_point(const plane *x, const nh_classified_point *p, nh_json
     nh_json *item = nh_json_add_object(list);
     nh_json *where = nh_json_put_object(item, "where");
     for (int k = 1; k >= 0; k--) nh_json_put_text(where, x->over[k], p->value[k]);
-    nh_json_put_text(item, "on",
-                     p->curve == SIZE_MAX
-                         ? NULL
-                         : nh_classified_surface_words(x->family, &x->plane->curve[p->curve].polynomial));
+    nh_json_put_text(
+        item, "on",
+        p->curve == SIZE_MAX ? NULL : nh_classified_surface_words(x->family, &x->plane->curve[p->curve].polynomial));
     nh_classification_put_found(item, x->plane->rows, p->first, p->number, r && p->at->complete >= p->first,
                                 p->at->why);
     nh_classification_put_currents(r, 0, NULL, item);

@@ -147,7 +147,7 @@ static void draw_slice(const space *x, double nu, nh_pen *pen)
 {
     enum { most = 16 };
     drawing d = {.arena = x->family->arena, .nu = nu};
-    double (*at)[2] = nh_alloc_array(x->points + most, sizeof *at);
+    double(*at)[2] = nh_alloc_array(x->points + most, sizeof *at);
     size_t rows = x->space->rows, points = 0;
     char digits[32];
     window(&d, x);
@@ -155,8 +155,9 @@ static void draw_slice(const space *x, double nu, nh_pen *pen)
         const nh_plane_curve *s = &x->space->surface[k];
         if (!s->first && !s->degenerate) continue;
         const char *words = nh_classified_surface_words(x->family, &s->polynomial);
-        draw_surface(&d, &s->polynomial, s->degenerate ? nh_arena_printf(d.arena, "%s: degenerate", words)
-                     : nh_arena_printf(d.arena, "%s: %zu", words, s->number[rows].bound));
+        draw_surface(&d, &s->polynomial,
+                     s->degenerate ? nh_arena_printf(d.arena, "%s: degenerate", words)
+                                   : nh_arena_printf(d.arena, "%s: %zu", words, s->number[rows].bound));
     }
     for (size_t k = 0; k < x->curves; k++) {
         const nh_plane_curve *c = &x->part[x->curve[k].part].within->plane->curve[x->curve[k].index];
@@ -170,13 +171,17 @@ static void draw_slice(const space *x, double nu, nh_pen *pen)
     draw_dots(&d, points, at, "points");
     nh_text_number(nu, digits, sizeof digits);
     const char *only = d.count == 1 ? d.curve[0].name : NULL; /* the plot has no legend */
-    const char *caption = nh_arena_printf(d.arena, "%s = %s. Numbers of integrals of degree %zu, with the constant "
+    const char *caption = nh_arena_printf(d.arena,
+                                          "%s = %s. Numbers of integrals of degree %zu, with the constant "
                                           "1%s%s; elsewhere %zu.",
                                           x->over[2], digits, rows, only ? ": " : "", only ? only : "",
                                           x->space->row[rows - 1].number.bound);
     nh_plot plot = {.title = nh_arena_printf(d.arena, "Where there are more, %s = %s", x->over[2], digits),
                     .description = caption,
-                    .x_label = x->over[1], .y_label = x->over[0], .curves = d.count, .curve = d.curve};
+                    .x_label = x->over[1],
+                    .y_label = x->over[0],
+                    .curves = d.count,
+                    .curve = d.curve};
     if (d.count) pen->ink->plot(pen->to, &plot, caption);
     nh_free(at);
     nh_free(d.curve);

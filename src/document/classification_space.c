@@ -26,10 +26,10 @@ static void put_along(pen *p, const nh_classified *along, size_t complete)
     if (!complete) nh_pen_words(p, "%s", nh_classification_fewer);
     else if (along->second)
         nh_pen_words(p, "All proved for every %s and %s; for almost all the list is complete up to degree %zu.",
-                     along->second,
-                     along->over, complete);
-    else nh_pen_words(p, "All proved for every %s; for almost all the list is complete up to degree %zu.", along->over,
-                      complete);
+                     along->second, along->over, complete);
+    else
+        nh_pen_words(p, "All proved for every %s; for almost all the list is complete up to degree %zu.", along->over,
+                     complete);
 }
 
 static void put_surfaces(const space *x, pen *p, const size_t *almost_all)
@@ -85,8 +85,7 @@ static void put_points(const space *x, pen *p, const size_t *almost_all)
         const nh_classified_point *at = x->point[k].at;
         if (!k) nh_pen_section(p, "points", "More at the points");
         nh_pen_place_card(p, nh_classification_space_place(x, &x->point[k]));
-        nh_classification_write_numbers(x->family, p, x->space->rows, at->number, at->first, at->at->exact,
-                                        almost_all);
+        nh_classification_write_numbers(x->family, p, x->space->rows, at->number, at->first, at->at->exact, almost_all);
         nh_classification_write_value(x->family, p, at->at, at->first);
     }
 }
@@ -129,12 +128,14 @@ static void put_excluded(const space *x, size_t degree, nh_text *out)
     nh_text_addf(out, "  degree %zu: ", degree);
     if (!row->planes || row->height < 1) nh_text_add(out, "no values are excluded by a proof\n");
     else
-        nh_text_addf(out, "in %zu planes of constant %s, no other pair of rational numbers %s, %s with numerators "
+        nh_text_addf(out,
+                     "in %zu planes of constant %s, no other pair of rational numbers %s, %s with numerators "
                      "and denominators up to %.1e has more than %zu\n",
                      row->planes, x->over[2], x->over[1], x->over[0], row->height, row->number.bound);
-    nh_text_addf(out, "    (%zu unknowns, order %zu, determinants of size %zu, surfaces from %zu values of %s, "
-                 "modulo", row->unknowns,
-                 row->number.order, row->size, row->sections, x->over[2]);
+    nh_text_addf(out,
+                 "    (%zu unknowns, order %zu, determinants of size %zu, surfaces from %zu values of %s, "
+                 "modulo",
+                 row->unknowns, row->number.order, row->size, row->sections, x->over[2]);
     for (size_t i = 0; i < row->primes; i++) nh_text_addf(out, "%s %" PRIu64, i ? "," : "", row->prime[i]);
     nh_text_add(out, ")\n");
 }
@@ -146,20 +147,24 @@ static void put_all_excluded(const space *x, nh_text *out)
     if (o->rows) nh_text_add(out, "Elsewhere:\n");
     for (size_t d = 1; d <= o->rows; d++) put_excluded(x, d, out);
     if (!o->rows) return;
-    nh_text_addf(out, "  These planes are all with numerator and denominator of %s up to %.0f that were not "
+    nh_text_addf(out,
+                 "  These planes are all with numerator and denominator of %s up to %.0f that were not "
                  "classified as a whole (option `planes`).\n",
                  x->over[2], x->family->almost_all->options.planes);
     for (size_t k = 0; k < x->parts; k++) {
         const nh_plane *in = x->part[k].within ? x->part[k].within->plane : NULL;
         if (!in || in->rows < o->rows || in->row[o->rows - 1].height < 1) continue;
-        nh_text_addf(out, looked++ ? "; on %s: %.1e" : "  Where one parameter follows from the others the same "
-                     "holds for pairs of these. On %s: %.1e",
+        nh_text_addf(out,
+                     looked++ ? "; on %s: %.1e"
+                              : "  Where one parameter follows from the others the same "
+                                "holds for pairs of these. On %s: %.1e",
                      nh_classified_surface_words(x->family, x->part[k].polynomial), in->row[o->rows - 1].height);
     }
     if (looked) nh_text_add(out, ".\n");
-    nh_text_addf(out, "  Not excluded: single points and curves in planes %s = constant, for other values of %s. "
+    nh_text_addf(out,
+                 "  Not excluded: single points and curves in planes %s = constant, for other values of %s. "
                  "The sections show, modulo the primes, no other surface and no other curve in another direction; "
-                     "this is not proved.\n",
+                 "this is not proved.\n",
                  x->over[2], x->over[2]);
 }
 
@@ -186,8 +191,9 @@ void nh_classification_outline_space(const space *x, pen *p)
     put_left(x, &text);
     put_all_excluded(x, &text);
     nh_classification_write_lines(p, &text);
-    if (o->end) nh_pen_words(p, "Degree %zu was not reached: %s.", o->rows + 1, nh_classification_end(o->end, words,
-        sizeof words));
+    if (o->end)
+        nh_pen_words(p, "Degree %zu was not reached: %s.", o->rows + 1,
+                     nh_classification_end(o->end, words, sizeof words));
 }
 
 /* ---- JSON ---- */
@@ -239,8 +245,7 @@ char *nh_classification_space_json(const space *x, const nh_run *run)
     put_special(x, nh_json_put_array(root, "special"));
     list = nh_classification_put_open(x->family, root, o->surfaces, o->surface);
     for (size_t k = 0; k < x->parts; k++)
-        if (!x->part[k].within)
-            nh_json_add_text(list, nh_classified_surface_words(x->family, x->part[k].polynomial));
+        if (!x->part[k].within) nh_json_add_text(list, nh_classified_surface_words(x->family, x->part[k].polynomial));
     nh_json_put_bool(root, "nowhere_else", false); /* other values of the first parameter are not covered */
     nh_json_put_bool(root, "partial", x->partial);
     nh_run_json(run, x->family->almost_all->system, root);

@@ -4,9 +4,9 @@
 #include "count/count.h"
 
 static const struct {
-    const char *subject;     /* the subject of the whole classification */
-    const char *where;       /* heading of the special values, and of sentences about them */
-    const char *more;        /* "more ..." */
+    const char *subject; /* the subject of the whole classification */
+    const char *where;   /* heading of the special values, and of sentences about them */
+    const char *more;    /* "more ..." */
 } WORDS[NH_LINEAR_QUESTIONS] = {
     [NH_OF_CURRENTS] = {"integrals polynomial in the velocities", "Special values",
                         "more conserved quantities than the others"},

@@ -60,8 +60,7 @@ static void name_it(const nh_analysis *r, const nh_current *f, bool rotations, n
     bool angle = false;
     for (size_t s = 0; of && s < r->system->coordinates; s++)
         angle |= !strcmp(of, r->system->coordinate[s].name) && r->system->coordinate[s].type == NH_ANGLE;
-    out->name = of          ? capital(r, nh_arena_printf(r->arena, "%s%smomentum conjugate to", before,
-                                                         angle ? "angular " : ""))
+    out->name = of ? capital(r, nh_arena_printf(r->arena, "%s%smomentum conjugate to", before, angle ? "angular " : ""))
                 : *m        ? capital(r, m)
                 : rotations ? "Angular momentum"
                             : "";
@@ -99,8 +98,8 @@ bool nh_current_words_agree(const nh_current_words *a, const nh_current_words *b
 {
     bool plain = !strstr(a->what, " and ") && !strstr(b->what, " and ");
     return !strcmp(a->name, b->name) && !strcmp(a->doc, b->doc) && !strcmp(a->how, b->how) &&
-           !strcmp(a->rest, b->rest) && !*a->of == !*b->of &&
-           !*a->what == !*b->what && (plain || !strcmp(a->what, b->what));
+           !strcmp(a->rest, b->rest) && !*a->of == !*b->of && !*a->what == !*b->what &&
+           (plain || !strcmp(a->what, b->what));
 }
 
 /* " x, y and z": the different ones. */

@@ -18,7 +18,7 @@ const char *nh_current_energy_named(const nh_analysis *r);
 /* What is said of a quantity: "Momentum conjugate to x. From shifting x. Proved." */
 typedef struct {
     const char *name, *of;  /* "Momentum conjugate to", "x"; or "" */
-    const char *doc; /* the sentence of the system file; or "" */
+    const char *doc;        /* the sentence of the system file; or "" */
     const char *how, *what; /* "shifting", "x"; or "" */
     const char *rest;       /* further sentences */
 } nh_current_words;

@@ -24,17 +24,13 @@ bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *erro
         *out = (nh_export_target)i;
         return true;
     }
-    if (name)
-        nh_fail(error, NH_USAGE, "--to", "there is no language `%.100s`", name);
-    else
-        nh_fail(error, NH_USAGE, "--to", "no language is given");
+    if (name) nh_fail(error, NH_USAGE, "--to", "there is no language `%.100s`", name);
+    else nh_fail(error, NH_USAGE, "--to", "no language is given");
     /* other names of languages, and formats of their files */
-    static const char *const others[][2] = {{"tex", "latex"}, {"numpy", "python"}, {"scipy", "python"},
-                                            {"cpp", "c"},     {"c++", "c"},        {"m", "matlab"},
-                                            {"javascript", "js"}};
+    static const char *const others[][2] = {{"tex", "latex"}, {"numpy", "python"}, {"scipy", "python"}, {"cpp", "c"},
+                                            {"c++", "c"},     {"m", "matlab"},     {"javascript", "js"}};
     for (size_t i = 0; name && i < sizeof others / sizeof *others; i++)
-        if (!strcasecmp(name, others[i][0]))
-            return nh_error_hint(error, "did you mean `%s`?", others[i][1]);
+        if (!strcasecmp(name, others[i][0])) return nh_error_hint(error, "did you mean `%s`?", others[i][1]);
     return nh_error_hint_near(error, name ? name : "", targets, target_count,
                               "--to takes c, python, sympy, matlab, js, latex or json");
 }
@@ -99,10 +95,8 @@ static void current_words(const nh_export *x, const nh_export_function *f, const
         row++;
         const char *holds = nh_facts_holds(r->model, &c->proof, true);
         nh_text_addf(out, "%s%s%s%s: ", before, c->name, *c->meaning ? ", " : "", c->meaning);
-        if (c->proof.proved)
-            nh_text_addf(out, "proved%s", holds);
-        else
-            nh_text_addf(out, "conserved to %.0f digits%s%s", c->proof.digits, nh_formula_doubt(c), holds);
+        if (c->proof.proved) nh_text_addf(out, "proved%s", holds);
+        else nh_text_addf(out, "conserved to %.0f digits%s%s", c->proof.digits, nh_formula_doubt(c), holds);
         if (c->local) nh_text_add(out, "; many-valued on an angle");
         if (c->series)
             for (size_t j = 0; j < c->series->variables; j++)

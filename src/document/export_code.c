@@ -87,10 +87,8 @@ static void unpack(const nh_export_form *form, nh_export_body *b, const bool *us
     for (size_t i = 0; i < f->system->parameters; i++) {
         nh_ex symbol = f->system->parameter[i].symbol;
         bool input = b->x->input[i];
-        if (used[symbol] && input)
-            form->unpack(b, nh_source_name(b->code, symbol), b->inputs, inputs);
-        else if (used[symbol])
-            form->parameter(b, nh_source_name(b->code, symbol), b->member[i]);
+        if (used[symbol] && input) form->unpack(b, nh_source_name(b->code, symbol), b->inputs, inputs);
+        else if (used[symbol]) form->parameter(b, nh_source_name(b->code, symbol), b->member[i]);
         inputs += input;
     }
 }

@@ -54,26 +54,20 @@ static void put_left(const nh_export_function *f, const nh_export_array *a, size
         nh_text_add(out, "\\partial ");
         put_name(label, out);
         nh_text_add(out, "/\\partial ");
-        if (column == 0)
-            nh_text_add(out, "t");
+        if (column == 0) nh_text_add(out, "t");
         else if (states = f->argument[0].rows, column <= states)
             put_name(nh_export_label(f, &f->argument[0], column - 1), out);
-        else
-            put_name(nh_export_label(f, &f->argument[1], column - 1 - states), out);
+        else put_name(nh_export_label(f, &f->argument[1], column - 1 - states), out);
         return;
     }
     nh_text_add(out, letter ? letter : a->name);
     if (a->rows == 1 && a->columns == 1) return;
     nh_text_add(out, "_{");
-    if (*label)
-        put_name(label, out);
-    else
-        nh_text_addf(out, "%zu", row + 1);
+    if (*label) put_name(label, out);
+    else nh_text_addf(out, "%zu", row + 1);
     if (a->columns > 1) nh_text_add(out, *label && a->columns == a->rows ? "\\," : ",");
-    if (a->columns > 1 && a->columns == a->rows && *label)
-        put_name(nh_export_label(f, a, column), out);
-    else if (a->columns > 1)
-        nh_text_addf(out, "%zu", column + 1);
+    if (a->columns > 1 && a->columns == a->rows && *label) put_name(nh_export_label(f, a, column), out);
+    else if (a->columns > 1) nh_text_addf(out, "%zu", column + 1);
     nh_text_add(out, "}");
 }
 
@@ -110,10 +104,8 @@ static void put_rows(rows *r, nh_text *out)
         if (aligned) nh_text_add(out, fits ? " \\\\\n" : "\n\\end{align*}\n");
         if (fits && !aligned) nh_text_add(out, "\\begin{align*}\n");
         nh_text_addf(out, fits ? "%s &= " : "\\nhformula{%s = ", at->left);
-        if (fits)
-            nh_typeset(at->right, NH_LATEX, out);
-        else
-            nh_typeset_pieces(at->right, NH_LATEX, NH_TEX_WIDEST, put_piece, out);
+        if (fits) nh_typeset(at->right, NH_LATEX, out);
+        else nh_typeset_pieces(at->right, NH_LATEX, NH_TEX_WIDEST, put_piece, out);
         if (!fits) nh_text_add(out, "}\n");
         aligned = fits;
         nh_free(at->left);
@@ -235,10 +227,8 @@ static void put_function(const nh_export *x, const nh_export_function *f, nh_tex
     nh_text_clear(&words);
     w.code = nh_source_create(&nh_source_plain, f->dag, &w.lines);
     for (size_t i = 0; i < n; i++) whole = whole && nh_complexity(f->dag, e[i]) <= longest_whole;
-    if (whole)
-        nh_source_whole(w.code);
-    else
-        nh_source_plan(w.code, n, e);
+    if (whole) nh_source_whole(w.code);
+    else nh_source_plan(w.code, n, e);
     nh_source_parts(w.code, n, e);
     if (w.lines.length) {
         add_statements(&r, &w.lines);

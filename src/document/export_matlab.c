@@ -53,10 +53,8 @@ static void fill(nh_export_body *b, const char *array, size_t rows, size_t colum
     nh_text_addf(b->out, "%s%s = zeros(%zu, %zu);\n", b->indent, array, rows, width);
     for (size_t i = 0; i < rows * width; i++) {
         if (nh_is_zero(b->f->dag, e[i])) continue;
-        if (columns)
-            nh_text_addf(b->out, "%s%s(%zu, %zu) = ", b->indent, array, i / width + 1, i % width + 1);
-        else
-            nh_text_addf(b->out, "%s%s(%zu) = ", b->indent, array, i + 1);
+        if (columns) nh_text_addf(b->out, "%s%s(%zu, %zu) = ", b->indent, array, i / width + 1, i % width + 1);
+        else nh_text_addf(b->out, "%s%s(%zu) = ", b->indent, array, i + 1);
         nh_source_put(b->code, e[i]);
         nh_text_add(b->out, ";\n");
     }

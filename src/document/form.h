@@ -6,9 +6,9 @@
 
 /* The forms of documents that have an option on the command line: its name, which is also that of the ink nh_pen_NAME;
  * the form; the member of nh_pen to which the ink writes. */
-#define NH_PEN_FORM_TABLE(X)    \
-    X(html, NH_PEN_PAGE, page)  \
-    X(tex,  NH_PEN_LATEX, tex)
+#define NH_PEN_FORM_TABLE(X)                                                                                           \
+    X(html, NH_PEN_PAGE, page)                                                                                         \
+    X(tex, NH_PEN_LATEX, tex)
 
 #define X(name, form, writer) form,
 typedef enum { NH_PEN_FORM_TABLE(X) NH_PEN_TEXT } nh_pen_form;

@@ -45,7 +45,7 @@ typedef struct {
     bool *stands, *short_enough; /* is there room for it: in the document; beside others, or where nothing folds */
     nh_formula_part part[NH_FORMULA_PARTS];
     size_t parts;
-    bool named;                                              /* is any part needed? */
+    bool named; /* is any part needed? */
     /* needed by a formula that is shown; by one that is short enough */
     bool needed[NH_FORMULA_PARTS], beside[NH_FORMULA_PARTS];
     double wanted;

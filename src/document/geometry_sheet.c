@@ -101,7 +101,7 @@ static void lagrangian(const builder *b)
     nh_sheet_begin(b->s, "lagrangian", o->k ? "Lagrangian on the constraint submanifold" : "Lagrangian and momenta",
                    s->normal ? "$\\bar{L}$ is $L$ with the constraints inserted, $\\bar{L}_{a}$ its derivative by a "
                                "dependent velocity, before they are inserted; $p$ are the momenta, $E$ is the energy."
-                             : o->k || o->chart->quasi
+                   : o->k || o->chart->quasi
                        ? "$\\bar{L}$ is $L$ in the velocities of the chart; $p$ are the momenta, $E$ is the energy."
                        : "Without constraints $\\bar{L}$ is $L$ itself; $p$ are the momenta, $E$ is the energy.");
     formula(b, o->Lbar, "\\bar{L}", NULL, NULL);

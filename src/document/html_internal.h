@@ -13,14 +13,14 @@ typedef struct {
     nh_text *out;
     const nh_system *system;
     const nh_analysis_file *analysis; /* analysis file whose abbreviations are used in formulas; or NULL */
-    nh_dag *dag;                 /* graph of the formulas */
-    const nh_chart *chart;       /* chart whose dependent velocities replace roots; or NULL */
-    double shown;                /* option `shown`: longer formulas are only in the JSON */
-    double written;              /* option `written` */
-    const nh_stage *stage;       /* the motion at its top; or NULL */
-    bool headed;                 /* is its header closed? */
+    nh_dag *dag;                      /* graph of the formulas */
+    const nh_chart *chart;            /* chart whose dependent velocities replace roots; or NULL */
+    double shown;                     /* option `shown`: longer formulas are only in the JSON */
+    double written;                   /* option `written` */
+    const nh_stage *stage;            /* the motion at its top; or NULL */
+    bool headed;                      /* is its header closed? */
     size_t figures;
-    size_t names;                /* number of names of repeated parts in this card or chart so far: all are different */
+    size_t names; /* number of names of repeated parts in this card or chart so far: all are different */
     void (*sink)(void *context, const nh_plot *plot, const char *caption); /* NULL: figures are written to the page */
     void *context;
 } nh_html_writer;
@@ -28,10 +28,10 @@ typedef struct {
 /* ---- parts ---- */
 
 void nh_html_add(nh_html_writer *w, const char *markup);
-void nh_html_text(nh_html_writer *w, const char *text);                 /* escaped */
-void nh_html_prose(nh_html_writer *w, const char *text);                /* the same, with m^2 as a superscript */
-void nh_html_letters(nh_html_writer *w, const char *label); /* in the language of notation.h */
-void nh_html_theory(nh_html_writer *w, const char *words);  /* words with labels between dollar signs */
+void nh_html_text(nh_html_writer *w, const char *text);                    /* escaped */
+void nh_html_prose(nh_html_writer *w, const char *text);                   /* the same, with m^2 as a superscript */
+void nh_html_letters(nh_html_writer *w, const char *label);                /* in the language of notation.h */
+void nh_html_theory(nh_html_writer *w, const char *words);                 /* words with labels between dollar signs */
 void nh_html_tagged(nh_html_writer *w, const char *tag, const char *text); /* <tag>text</tag> */
 /* A number with so many significant digits; a dash when it is not finite. */
 void nh_html_number(nh_html_writer *w, double value, int digits);

@@ -177,8 +177,7 @@ static void controls(nh_html_writer *w, const nh_stage *s, bool live)
         nh_html_add(w, "</div>\n");
     }
     nh_html_add(w, "<div class=\"under\">");
-    if (live)
-        nh_html_add(w, "<label>tolerance <select id=\"tol\"></select></label>");
+    if (live) nh_html_add(w, "<label>tolerance <select id=\"tol\"></select></label>");
     nh_html_add(w, "<span id=\"told\">");
     if (!live) put_why(w, s->live);
     nh_html_add(w, "</span><button class=\"lnk\" id=\"csv\" type=\"button\">CSV</button><button class=\"lnk\" "

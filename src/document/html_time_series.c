@@ -39,8 +39,12 @@ static size_t every_of(const nh_html_writer *w, const nh_time_series *c)
 static nh_curve curve_of(const nh_html_writer *w, const nh_time_series *c, const nh_line *line)
 {
     size_t every = every_of(w, c);
-    return (nh_curve){.name = line->name, .count = (c->count - 1) / every + 1, .x = c->time, .x_stride = every,
-                      .y = line->value, .y_stride = line->stride * every};
+    return (nh_curve){.name = line->name,
+                      .count = (c->count - 1) / every + 1,
+                      .x = c->time,
+                      .x_stride = every,
+                      .y = line->value,
+                      .y_stride = line->stride * every};
 }
 
 /* Lines of one kind, in plots of at most so many curves.  Without the first `skip` lines of the kind, `take` are

@@ -208,11 +208,23 @@ static nh_plot in_the_plane(const nh_linearized *x, nh_curve **curves)
     static const double zero[2] = {0, 0};
     *curves = nh_alloc_array(1, sizeof **curves);
     size_t stride = sizeof *e->eigenvalue / sizeof(double);
-    **curves = (nh_curve){.name = name, .count = e->eigenvalues, .x = &e->eigenvalue[0].re, .y = &e->eigenvalue[0].im,
-                          .x_stride = stride, .y_stride = stride, .dots = true};
-    return (nh_plot){.id = "eigenvalues", .title = "Eigenvalues", .description = "The eigenvalues in the plane",
-                     .x_label = "real part", .y_label = "imaginary part", .also_x = zero, .also_y = zero, .fan = true,
-                     .curves = 1, .curve = *curves};
+    **curves = (nh_curve){.name = name,
+                          .count = e->eigenvalues,
+                          .x = &e->eigenvalue[0].re,
+                          .y = &e->eigenvalue[0].im,
+                          .x_stride = stride,
+                          .y_stride = stride,
+                          .dots = true};
+    return (nh_plot){.id = "eigenvalues",
+                     .title = "Eigenvalues",
+                     .description = "The eigenvalues in the plane",
+                     .x_label = "real part",
+                     .y_label = "imaginary part",
+                     .also_x = zero,
+                     .also_y = zero,
+                     .fan = true,
+                     .curves = 1,
+                     .curve = *curves};
 }
 
 nh_plot nh_linearized_plot(const nh_linearized *x, nh_curve **curves)
@@ -222,12 +234,20 @@ nh_plot nh_linearized_plot(const nh_linearized *x, nh_curve **curves)
     size_t n = x->branches;
     *curves = nh_alloc_array(2 * n + 1, sizeof **curves);
     for (size_t b = 0; b < 2 * n; b++)
-        (*curves)[b] = (nh_curve){
-            .name = nh_arena_printf(x->arena, b < n ? "Re %zu" : "Im %zu", b % n + 1), .count = x->rows,
-            .x = &x->row[0].value.value, .x_stride = sizeof *x->row / sizeof(double),
-            .y = (b < n ? x->re : x->im) + b % n, .y_stride = n, .dots = true};
-    return (nh_plot){.id = "eigenvalues", .title = "Eigenvalues", .description = "Real and imaginary parts",
-                     .x_label = x->over, .y_label = "real and imaginary parts", .also_y = zero, .curves = 2 * n,
+        (*curves)[b] = (nh_curve){.name = nh_arena_printf(x->arena, b < n ? "Re %zu" : "Im %zu", b % n + 1),
+                                  .count = x->rows,
+                                  .x = &x->row[0].value.value,
+                                  .x_stride = sizeof *x->row / sizeof(double),
+                                  .y = (b < n ? x->re : x->im) + b % n,
+                                  .y_stride = n,
+                                  .dots = true};
+    return (nh_plot){.id = "eigenvalues",
+                     .title = "Eigenvalues",
+                     .description = "Real and imaginary parts",
+                     .x_label = x->over,
+                     .y_label = "real and imaginary parts",
+                     .also_y = zero,
+                     .curves = 2 * n,
                      .curve = *curves};
 }
 

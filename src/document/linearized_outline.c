@@ -111,8 +111,7 @@ static void matrix(nh_pen *p, const nh_linearized *x, const nh_linear_equations 
     for (size_t i = 0; i < e->n; i++) {
         nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
         nh_pen_cell(p, NH_PEN_ROW_HEAD, "%s", nh_linearize_name(x, e, e->s + i));
-        for (size_t j = 0; j < columns; j++)
-            nh_pen_cell(p, NH_PEN_CELL, "%s", digits_of(x, entry[i * columns + j]));
+        for (size_t j = 0; j < columns; j++) nh_pen_cell(p, NH_PEN_CELL, "%s", digits_of(x, entry[i * columns + j]));
         nh_pen_close(p, NH_PEN_ROW);
     }
     nh_pen_table_end(p);
@@ -122,8 +121,10 @@ static void matrix(nh_pen *p, const nh_linearized *x, const nh_linear_equations 
 static void equations(nh_pen *p, const nh_linearized *x, const nh_linear_equations *e)
 {
     nh_pen_section(p, "equations", "Linear equations");
-    nh_pen_words(p, "M dw' + C dw + K dx = 0: dx deviations of coordinates, dw of their velocities. The dependent ones "
-                    "follow from the constraints. Errors of the entries: %.1g at most.", e->error);
+    nh_pen_words(p,
+                 "M dw' + C dw + K dx = 0: dx deviations of coordinates, dw of their velocities. The dependent ones "
+                 "follow from the constraints. Errors of the entries: %.1g at most.",
+                 e->error);
     matrix(p, x, e, "M", e->M, e->n, e->s);
     matrix(p, x, e, "C", e->C, e->n, e->s);
     matrix(p, x, e, "K", e->N, e->s, 0);
@@ -187,8 +188,10 @@ static void answer(nh_pen *p, const nh_linearized *x)
     nh_pen_open(p, NH_PEN_ANSWER, x->over || decided ? "found" : "undecided", NULL);
     if (!x->over) nh_pen_say(p, "%s", nh_linearized_sentence(v));
     else
-        nh_pen_say(p, x->changes == 1 ? "The stability changes at %zu value of <%s>."
-                                      : "The stability changes at %zu values of <%s>.", x->changes, x->over);
+        nh_pen_say(p,
+                   x->changes == 1 ? "The stability changes at %zu value of <%s>."
+                                   : "The stability changes at %zu values of <%s>.",
+                   x->changes, x->over);
     nh_pen_close(p, NH_PEN_ANSWER);
 }
 
@@ -202,8 +205,9 @@ static void put_meaning(const nh_eigenvalue *z, nh_text *out)
     bool zero = fabs(z->re) <= z->error, real = fabs(z->im) <= z->error;
     if (zero && real) nh_text_add(out, "no exponential growth or decay");
     if (!real) nh_text_addf(out, "period %.5g", 2 * acos(-1) / fabs(z->im));
-    if (!zero) nh_text_addf(out, "%s%s in %.5g", real ? "" : ", ", z->re > 0 ? "grows by e" : "decays to 1/e",
-                            1 / fabs(z->re));
+    if (!zero)
+        nh_text_addf(out, "%s%s in %.5g", real ? "" : ", ", z->re > 0 ? "grows by e" : "decays to 1/e",
+                     1 / fabs(z->re));
 }
 
 /* Conjugate ones are one line. */
@@ -260,8 +264,7 @@ static void first_screen(const nh_linearized *x, bool colour, nh_text *out)
         nh_text_addf(&words, "The stability changes at %zu value%s of %s", x->changes, x->changes == 1 ? "" : "s",
                      x->over);
     else nh_text_add(&words, nh_linearized_sentence(x->row[0].verdict));
-    if (x->over)
-        nh_text_addf(&words, " between %s and %s.", x->row[0].value.text, x->row[x->rows - 1].value.text);
+    if (x->over) nh_text_addf(&words, " between %s and %s.", x->row[0].value.text, x->row[x->rows - 1].value.text);
     nh_screen_begin(out, colour, x->system, open, &words);
     if (x->over) {
         put_changes(x, out);

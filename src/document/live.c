@@ -167,9 +167,9 @@ static void put_shapes(const nh_live *l, const nh_observables *t, nh_text *out)
 
 static void put_tracks(const nh_live *l, const nh_observables *t, nh_text *out)
 {
-    static const char *const kind[] = {[NH_TRACK_STATE] = "state",           [NH_TRACK_CURRENT] = "current",
-                                       [NH_TRACK_MULTIPLIER] = "multiplier", [NH_TRACK_ENERGY] = "energy",
-                                       [NH_TRACK_WATCH] = "watch",           [NH_TRACK_SHAPE] = "shape"};
+    static const char *const kind[] = {
+        [NH_TRACK_STATE] = "state",   [NH_TRACK_CURRENT] = "current", [NH_TRACK_MULTIPLIER] = "multiplier",
+        [NH_TRACK_ENERGY] = "energy", [NH_TRACK_WATCH] = "watch",     [NH_TRACK_SHAPE] = "shape"};
     nh_text_add(out, "  tracks: [");
     for (size_t i = 0; i < l->tracks; i++) {
         const nh_track *track = &t->track[l->track[i]];

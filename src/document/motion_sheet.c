@@ -38,7 +38,9 @@ static void first_series(nh_sheet *s, const nh_motion_series *v, const char *of)
         nh_sheet_sum(s, "", name(s, one->symbol));
         for (size_t k = 0; k < NH_MOTION_SERIES_TERMS; k++)
             nh_sheet_add(s, nh_real(s->dag, one->coefficient[k]),
-                         k == 0 ? "" : k == 1 ? "Delta" : nh_sheet_label(s, "Delta^{%zu}", k));
+                         k == 0   ? ""
+                         : k == 1 ? "Delta"
+                                  : nh_sheet_label(s, "Delta^{%zu}", k));
         nh_sheet_formula(s, nh_sheet_label(s, "\\eps_{%s}", name(s, one->symbol)), nh_real(s->dag, one->bound));
     }
 }

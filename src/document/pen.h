@@ -41,7 +41,7 @@ typedef enum {
 } nh_pen_part;
 
 typedef struct {
-    bool screen;                                     /* has it parts for the screen? */
+    bool screen; /* has it parts for the screen? */
     /* it is for a terminal: without the user's own text, and without long explanations */
     bool brief;
     void (*begin)(void *to, const char *what);
@@ -55,19 +55,19 @@ typedef struct {
     void (*count)(void *to, size_t value);
     void (*names)(void *to, const char *words);
     void (*source)(void *to, const char *formula);
-    void (*letters)(void *to, const char *label);    /* in the language of notation.h */
+    void (*letters)(void *to, const char *label);                       /* in the language of notation.h */
     void (*equation)(void *to, const char *label, const char *formula); /* label = formula, as texts; label may be "" */
-    void (*code)(void *to, const char *text);        /* text as it is, on lines of its own */
+    void (*code)(void *to, const char *text);                           /* text as it is, on lines of its own */
     /* Formulas that belong together; labels are names, or in the language of notation.h. */
     void (*formulas)(void *to, size_t n, const char *const *label, const nh_ex *e);
     void (*sheet)(void *to, nh_sheet *sheet, bool headed); /* headed: it stands below a heading of its section */
     void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
     void (*table_end)(void *to);
     void (*plot)(void *to, nh_plot *plot, const char *caption);
-    void (*series)(void *to, const nh_time_series *series); /* a motion as plots over time; pages have a stage */
-    void (*stage)(void *to, const nh_stage *stage);         /* the motion at the top of a page; NULL: no page */
+    void (*series)(void *to, const nh_time_series *series);  /* a motion as plots over time; pages have a stage */
+    void (*stage)(void *to, const nh_stage *stage);          /* the motion at the top of a page; NULL: no page */
     void (*symmetry)(void *to, const nh_symmetry *symmetry); /* the symmetry in words: its case, its bracket */
-    void (*glossary)(void *to, const char *words);   /* the meaning of these words; on pages only */
+    void (*glossary)(void *to, const char *words);           /* the meaning of these words; on pages only */
     void (*end)(void *to, const nh_run *run);
 } nh_pen_ink;
 
@@ -88,11 +88,11 @@ bool nh_pen_is_open(const nh_pen_subject *subject, const char *parameter);
 typedef struct {
     /* the buffer to which parts are written; the output, which receives it at the end with its lines folded */
     nh_text *out, *folded;
-    nh_text text;            /* the buffer that `out` points to until the end */
+    nh_text text; /* the buffer that `out` points to until the end */
     nh_pen_subject of;
     bool colour;
-    nh_text rows;            /* the buffer that `out` points to within a table; its cells end by tabs */
-    size_t cells;            /* cells of the row, and tags of the card, so far */
+    nh_text rows; /* the buffer that `out` points to within a table; its cells end by tabs */
+    size_t cells; /* cells of the row, and tags of the card, so far */
 } nh_plain_writer;
 
 typedef struct {
@@ -103,10 +103,10 @@ typedef struct {
     nh_html_writer page;
     nh_tex_writer tex;
     nh_plain_writer plain;
-    size_t names;            /* number of names of repeated parts in sheets so far: one sequence for the document */
-    bool forms;              /* have the forms phi^a been defined? */
-    bool section, card;      /* parts that are open */
-    bool headed;             /* has this section a heading of its own? */
+    size_t names;       /* number of names of repeated parts in sheets so far: one sequence for the document */
+    bool forms;         /* have the forms phi^a been defined? */
+    bool section, card; /* parts that are open */
+    bool headed;        /* has this section a heading of its own? */
 } nh_pen;
 
 #define X(name, form, writer) extern const nh_pen_ink nh_pen_##name;
@@ -138,8 +138,8 @@ void nh_pen_open(nh_pen *pen, nh_pen_part part, const char *id, const char *titl
 void nh_pen_close(nh_pen *pen, nh_pen_part part);
 /* adds words to the open part */
 void nh_pen_say(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void nh_pen_theory(nh_pen *pen, const char *words); /* the same with $..$ */
-void nh_pen_words(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));  /* a paragraph */
+void nh_pen_theory(nh_pen *pen, const char *words);                                            /* the same with $..$ */
+void nh_pen_words(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a paragraph */
 /* an item of a list of facts */
 void nh_pen_fact(nh_pen *pen, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4)));
 /* nh_pen_close ends it */
@@ -151,7 +151,7 @@ void nh_pen_sheet(nh_pen *pen, nh_sheet *sheet); /* NULL: writes nothing */
 void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* a cell of an open row */
 void nh_pen_cell(nh_pen *pen, nh_pen_part part, const char *format, ...) __attribute__((format(printf, 3, 4)));
-void nh_pen_heading(nh_pen *pen, const char *title);             /* a heading within a section: it ends the card */
+void nh_pen_heading(nh_pen *pen, const char *title); /* a heading within a section: it ends the card */
 /* a heading within a card; `id`: its place on a page, or NULL */
 void nh_pen_name_heading(nh_pen *pen, const char *id, const char *name);
 void nh_pen_code(nh_pen *pen, const char *text);

@@ -23,8 +23,7 @@ static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a
 
 static void cross(const double a[3], const double b[3], double out[3])
 {
-    for (size_t j = 0; j < 3; j++)
-        out[j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
+    for (size_t j = 0; j < 3; j++) out[j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
 }
 
 static void normalise(double a[3])
@@ -113,8 +112,7 @@ static double targets(nh_view *v)
             for (size_t n = v->course->shape[s].flat ? 0 : places(v->course, s, i, p, &r); n-- > 0;)
                 widen(&now, p[n], r);
         bool any = now.high[0] >= now.low[0];
-        for (size_t j = 0; j < 3; j++)
-            middle[j] = any ? (now.low[j] + now.high[j]) / 2 : i ? middle[(long)j - 3] : 0;
+        for (size_t j = 0; j < 3; j++) middle[j] = any ? (now.low[j] + now.high[j]) / 2 : i ? middle[(long)j - 3] : 0;
         if (!any) continue;
         own = fmax(own, half_diagonal(&now));
         widen(&all, now.low, 0);
@@ -155,8 +153,8 @@ static void fill(nh_view *v)
             }
         }
     if (!(high[0] >= low[0])) return;
-    double room = fmin(most, fmin(across * v->wide / fmax(1, high[0] - low[0]),
-                                  upright * v->high / fmax(1, high[1] - low[1])));
+    double room =
+        fmin(most, fmin(across * v->wide / fmax(1, high[0] - low[0]), upright * v->high / fmax(1, high[1] - low[1])));
     v->x = v->wide / 2 - room * ((low[0] + high[0]) / 2 - v->x);
     v->y = raised * v->high - room * ((low[1] + high[1]) / 2 - v->y);
     v->scale *= room;

@@ -12,17 +12,17 @@ enum { NH_VIEW_SIDES = 32, NH_VIEW_ARCS = 48 };
 /* The projection; pixels go to the right and down. */
 typedef struct {
     const nh_time_series *course;
-    double wide, high;                /* size of the picture, in pixels */
-    int up;                           /* the axis of the ground's frame that points up */
+    double wide, high; /* size of the picture, in pixels */
+    int up;            /* the axis of the ground's frame that points up */
     /* unit vectors: to the eye, to the right and up in the picture, to the light */
     double towards[3], right[3], top[3], light[3];
-    double ambient, direct, white;    /* brightness and paleness of a face: numbers between 0 and 1 */
-    double solid, faint, behind;      /* opacities: of a face, of a hidden outline, of a hidden great circle */
-    double distance, scale, x, y;     /* distance of the eye; pixels per unit at the target; where the target is seen */
-    double floor, pitch;              /* the lowest place; the side of the squares drawn there */
-    double dot;                       /* the least radius of a ball, in pixels */
-    size_t count;                     /* times */
-    double *middle;                   /* the target at each time, three numbers each */
+    double ambient, direct, white; /* brightness and paleness of a face: numbers between 0 and 1 */
+    double solid, faint, behind;   /* opacities: of a face, of a hidden outline, of a hidden great circle */
+    double distance, scale, x, y;  /* distance of the eye; pixels per unit at the target; where the target is seen */
+    double floor, pitch;           /* the lowest place; the side of the squares drawn there */
+    double dot;                    /* the least radius of a ball, in pixels */
+    size_t count;                  /* times */
+    double *middle;                /* the target at each time, three numbers each */
 } nh_view;
 
 /* The view for the first `count` times: it contains the whole motion, or follows bodies that move far.  NULL when
@@ -36,7 +36,7 @@ void nh_view_see(const nh_view *view, size_t i, const double point[3], double ou
 /* Colours are 0xRRGGBB, or -1 for none. */
 typedef struct {
     double depth;
-    size_t first, points;             /* its place in the picture's list */
+    size_t first, points; /* its place in the picture's list */
     bool closed;
     int fill, stroke;
     double fill_opacity, stroke_opacity, width;
@@ -45,7 +45,7 @@ typedef struct {
 typedef struct {
     size_t count, capacity, points, room;
     nh_piece *piece;
-    double *point;                    /* x and y of each, in pixels */
+    double *point; /* x and y of each, in pixels */
 } nh_picture;
 
 /* All pieces that are seen at time number i, the far ones first.  The picture begins as {0}. */

@@ -25,8 +25,7 @@ static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a
 
 static void cross(const double a[3], const double b[3], double out[3])
 {
-    for (size_t j = 0; j < 3; j++)
-        out[j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
+    for (size_t j = 0; j < 3; j++) out[j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
 }
 
 /* p + a u + b v */
@@ -46,8 +45,7 @@ static double depth(const painter *w, const double p[3])
 static void to_eye(const painter *w, const double p[3], double out[3])
 {
     const nh_view *v = w->view;
-    for (size_t j = 0; j < 3; j++)
-        out[j] = v->middle[3 * w->i + j] + v->distance * v->towards[j] - p[j];
+    for (size_t j = 0; j < 3; j++) out[j] = v->middle[3 * w->i + j] + v->distance * v->towards[j] - p[j];
 }
 
 static double value(const painter *w, size_t s, size_t j, size_t i)
@@ -121,8 +119,10 @@ static bool face(painter *w, size_t n, double (*corner)[3], const double normal[
     to_eye(w, middle, eye);
     bool front = dot(normal, eye) > 0;
     if (!front && !edged) return false;
-    nh_piece *p = begin(w, depth(w, middle), front && !edged ? lit(w, base, normal) : base,
-                        front ? 1 : w->view->faint, !front ? 1 : edged ? edge : seam);
+    nh_piece *p = begin(w, depth(w, middle), front && !edged ? lit(w, base, normal) : base, front ? 1 : w->view->faint,
+                        !front  ? 1
+                        : edged ? edge
+                                : seam);
     p->closed = true;
     if (front) p->fill = lit(w, base, normal), p->fill_opacity = w->view->solid;
     for (size_t k = 0; k < n; k++) add_point(w, corner[k]);

@@ -11,7 +11,7 @@
 typedef struct {
     nh_text *out;
     bool on;
-    size_t held;                              /* number of points since the last one written */
+    size_t held; /* number of points since the last one written */
     /* the last point written; the newest; the range of directions, about `turn`, that pass all points between */
     double last[2], next[2], low, high, turn;
 } nh_polyline;

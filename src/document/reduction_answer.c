@@ -48,8 +48,7 @@ static void put_certainty(const nh_reduction *r, const nh_group *g, nh_text *out
     else if (!g->jets)
         nh_text_addf(out, "; there may be more, because they could not be counted: %s.",
                      nh_reduction_not_counted(r->kinetic));
-    else if (g->missing)
-        nh_text_addf(out, "; a count shows %zu more, for which no closed form was found.", g->missing);
+    else if (g->missing) nh_text_addf(out, "; a count shows %zu more, for which no closed form was found.", g->missing);
     else
         nh_text_addf(out, "%s a count shows that there are no others%s.", proved ? ", and" : ";",
                      g->jets->exact ? "" : ", by numbers");
@@ -64,10 +63,14 @@ static void put_sizes(const nh_reduction *r, nh_text *out)
     for (size_t i = 0; i < r->stages; i++) {
         const nh_reduction_stage *s = &r->stage[i];
         bool other = nh_reduction_instead(r, i);
-        nh_text_addf(out, "%s %zu%s", !i ? " become" : other ? "; or" : ", then", s->shown->n,
-                     !other                           ? ""
+        nh_text_addf(out, "%s %zu%s",
+                     !i      ? " become"
+                     : other ? "; or"
+                             : ", then",
+                     s->shown->n,
+                     !other                         ? ""
                      : s->kind == NH_STAGE_POINCARE ? " in one step"
-                                                      : " in another way");
+                                                    : " in another way");
     }
     nh_text_add(out, ". ");
 }
@@ -157,8 +160,8 @@ static void check(const nh_reduction *r, nh_text *out)
         nh_text_addf(&words, "The equations as printed agree with the true accelerations to %.2g. ", printed);
     if (apart >= 0)
         nh_text_addf(&words,
-                     "Put together again, the reduced motions differ from the full one by %.2g up to t = %.4g. ",
-                     apart, reached);
+                     "Put together again, the reduced motions differ from the full one by %.2g up to t = %.4g. ", apart,
+                     reached);
     if (energy >= 0) nh_text_addf(&words, "The energy changes by %.2g.", energy);
     if (words.length) nh_text_add(out, "\n");
     nh_screen_say(out, 0, &words);

@@ -48,8 +48,7 @@ static void invariance(nh_pen *p, const nh_reduction *r, const nh_generator *g)
     for (size_t i = 0; i < n; i++) proved += c[i]->holds && c[i]->all_parameters;
     bool all = proved < n || p->style.verbose;
     if (!all) nh_pen_say(p, "; proved");
-    for (size_t i = 0; i < n && all; i++)
-        nh_pen_say(p, "%s%s %s", i ? "" : "; ", what[i], how(c[i]));
+    for (size_t i = 0; i < n && all; i++) nh_pen_say(p, "%s%s %s", i ? "" : "; ", what[i], how(c[i]));
 }
 
 static void generators(nh_pen *p, const nh_reduction *r, const nh_group *g)
@@ -158,8 +157,7 @@ static void rules(nh_pen *p, const nh_chain_symmetries *c)
     for (int k = 0; k < NH_CHAIN_RULES; k++) {
         bool there = false;
         for (size_t i = 0; i < c->fields; i++) there |= (int)c->field[i].rule == k;
-        if (there)
-            nh_pen_say(p, "%s%s: %s", any ? "; " : "", nh_chain_rule_name((nh_chain_rule)k), meaning[k]);
+        if (there) nh_pen_say(p, "%s%s: %s", any ? "; " : "", nh_chain_rule_name((nh_chain_rule)k), meaning[k]);
         any |= there;
     }
     nh_pen_say(p, " (Chhabra and Emami 2014, section 4).");

@@ -91,8 +91,7 @@ static void pointer(const nh_reduction *r, const nh_reduction_stage *s, nh_pen *
     bool measure = !m->measure && !c->never, factor = !m->factor && s->shown->n > 2 && !c->never_hamiltonian;
     if (!r->system->parameters || !(measure || factor) || s->kind == NH_STAGE_SECOND) return;
     nh_pen_say(p, "; the values of one parameter with %s: classify --over %s --of %s",
-               measure ? "a measure" : "such a factor", one_parameter(r, c),
-               measure ? "measure" : "hamiltonization");
+               measure ? "a measure" : "such a factor", one_parameter(r, c), measure ? "measure" : "hamiltonization");
 }
 
 static void factor(const nh_reduction_stage *s, nh_pen *p)

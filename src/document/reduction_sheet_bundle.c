@@ -21,11 +21,10 @@ static void distribution(const nh_reduction_builder *b, const nh_lagrange_poinca
                *what = !l->slice->f ? "Without constraints $S$ is the whole algebra"
                                     : "$S$ is what $V$ and the constraint distribution $D$ have in common. The "
                                       "$chi_{a}$ span $S$, with the lifts they span $D$";
-    nh_sheet_begin(
-        b->s, "connection", "Nonholonomic connection and curvature",
-        l->slice->f || l->lifts
-            ? nh_sheet_label(b->s, "%s. The lifts are orthogonal to $S$ for %s. %s", what, orthogonal, rest)
-            : nh_sheet_label(b->s, "%s and the connection the mechanical one. %s", what, rest));
+    nh_sheet_begin(b->s, "connection", "Nonholonomic connection and curvature",
+                   l->slice->f || l->lifts
+                       ? nh_sheet_label(b->s, "%s. The lifts are orthogonal to $S$ for %s. %s", what, orthogonal, rest)
+                       : nh_sheet_label(b->s, "%s and the connection the mechanical one. %s", what, rest));
     for (size_t p = 0; p < l->r; p++) {
         nh_sheet_sum(b->s, "", number(b, "chi", p));
         for (size_t a = 0; a < l->d; a++) nh_sheet_add(b->s, l->chi[a * l->r + p], number(b, "e", a));

@@ -14,9 +14,9 @@ typedef struct {
     const nh_ideals *chain;
     nh_dag *dag;
     size_t d;
-    size_t *block;       /* of each generator */
-    nh_ex *lift;         /* column i: H_j e_i for e_i in block j; lift[a * d + i] */
-    nh_ex *whole;        /* d: scratch */
+    size_t *block; /* of each generator */
+    nh_ex *lift;   /* column i: H_j e_i for e_i in block j; lift[a * d + i] */
+    nh_ex *whole;  /* d: scratch */
 } stages;
 
 static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)

@@ -85,8 +85,11 @@ static char *analysis_document(const nh_scan_numbers_request *q, size_t settings
                                bool generic, nh_error *error)
 {
     (void)generic;
-    nh_analyze_request request = {.system_path = q->system_path, .settings = settings, .setting = setting,
-                                  .options = unhurried(q), .no_figures = true};
+    nh_analyze_request request = {.system_path = q->system_path,
+                                  .settings = settings,
+                                  .setting = setting,
+                                  .options = unhurried(q),
+                                  .no_figures = true};
     nh_analysis *r = nh_analysis_create(&request, error);
     char *text = r ? nh_analysis_json(r) : NULL;
     nh_analysis_free(r);

@@ -8,7 +8,7 @@
 #include "commands/scan.h"
 
 typedef struct {
-    const char *of;        /* "count", "analyze", "reduce"; NULL: count */
+    const char *of; /* "count", "analyze", "reduce"; NULL: count */
     size_t names;
     const char *const *name; /* numbers besides the leading one; none: a few suitable ones */
     const char *system_path;

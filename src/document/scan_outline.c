@@ -140,8 +140,10 @@ static void put_answer(const nh_scan *x, nh_text *out)
     size_t sure = 0;
     for (size_t i = 0; i < x->specials; i++) sure += x->special[i].confirmed;
     if (x->chunked)
-        nh_text_addf(out, "This part: %zu of %zu units are finished. When all parts are, the same command without "
-                     "--chunk writes the result.", x->finished, x->units);
+        nh_text_addf(out,
+                     "This part: %zu of %zu units are finished. When all parts are, the same command without "
+                     "--chunk writes the result.",
+                     x->finished, x->units);
     else if (x->partial && x->finished < x->units)
         nh_text_addf(out, "Not finished: %zu of %zu units. The same command continues. ", x->finished, x->units);
     else if (x->partial)
@@ -385,8 +387,9 @@ static size_t put_specials(const nh_scan *x, bool sure, size_t tail, nh_text *ou
         if ((s->confirmed || s->kind == NH_SCAN_STEP) != sure || !count_alike(x, i)) continue;
         nh_text block;
         nh_text_init(&block);
-        nh_sheet_paragraph(2, 2 + NH_SCREEN_HANG, nh_arena_printf(x->arena, "%s%s: %s", sure ? "" : "perhaps ",
-                                                                  where(x, i), what(x, s)), &block);
+        nh_sheet_paragraph(2, 2 + NH_SCREEN_HANG,
+                           nh_arena_printf(x->arena, "%s%s: %s", sure ? "" : "perhaps ", where(x, i), what(x, s)),
+                           &block);
         left += !nh_screen_fit(out, &block, tail);
     }
     return left;

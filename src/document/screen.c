@@ -41,8 +41,9 @@ static void put_parameters(const nh_system *s, const char *const open[3], nh_tex
             if ((length ? strncmp(other, name, length) != 0 : j > i) || is_open(open, other)) continue;
             nh_text_add(out, !out->length ? "" : grouped && !group ? "; " : ", ");
             if (!length) nh_text_addf(out, "%s%c=%c%.6g", other, glue, glue, s->parameter[j].value);
-            else nh_text_addf(out, "%.*s%s%s%c%.6g", group ? 0 : (int)length - 1, name, group ? "" : ": ",
-                              other + length, glue, s->parameter[j].value);
+            else
+                nh_text_addf(out, "%.*s%s%s%c%.6g", group ? 0 : (int)length - 1, name, group ? "" : ": ",
+                             other + length, glue, s->parameter[j].value);
             group++, grouped = length;
         }
     }

@@ -7,10 +7,7 @@ enum { most_rows = 40, most_columns = 8 };
 
 const char *nh_direction_word(int direction) { return direction > 0 ? "rising" : direction < 0 ? "falling" : "both"; }
 
-const char *nh_direction_before(int direction)
-{
-    return direction > 0 ? "rising " : direction < 0 ? "falling " : "";
-}
+const char *nh_direction_before(int direction) { return direction > 0 ? "rising " : direction < 0 ? "falling " : ""; }
 
 size_t nh_events_of(const nh_simulation *s, size_t which)
 {

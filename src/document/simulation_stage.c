@@ -33,9 +33,14 @@ static void add(list *l, const nh_track *track, const nh_options *options)
     nh_proof proof = nh_prove_current(s->model, track->value, true, options);
     if (!proof.proved || (!energy && is_energy(l, track->value, options))) return;
     const char *sure = nh_facts_holds(s->model, &proof, s->system->parameters <= most_named);
-    l->quantity[l->count] = (nh_live_quantity){.name = track->name, .value = track->value, .proved = true,
-                                               .all_parameters = proof.all_parameters, .fixed = proof.fixed};
-    l->row[l->count++] = (nh_stage_row){.name = energy ? "Energy" : words ? track->name : "",
+    l->quantity[l->count] = (nh_live_quantity){.name = track->name,
+                                               .value = track->value,
+                                               .proved = true,
+                                               .all_parameters = proof.all_parameters,
+                                               .fixed = proof.fixed};
+    l->row[l->count++] = (nh_stage_row){.name = energy  ? "Energy"
+                                                : words ? track->name
+                                                        : "",
                                         .doc = "",
                                         .from = energy ? "the symmetry in time" : "",
                                         .sure = *sure == ' ' ? sure + 1 : sure,

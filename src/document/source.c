@@ -21,10 +21,8 @@ void nh_source_identifier(const nh_source_language *l, const char *text, nh_text
     if (!isalpha((unsigned char)*text)) nh_text_add(out, "x");
     for (const char *c = text; *c; c++) {
         bool fits = isalnum((unsigned char)*c) || *c == '_';
-        if (*c == '\'' && !l->plain)
-            dashes++;
-        else
-            nh_text_add_n(out, fits || (l->plain && *c == '\'') ? c : "_", 1);
+        if (*c == '\'' && !l->plain) dashes++;
+        else nh_text_add_n(out, fits || (l->plain && *c == '\'') ? c : "_", 1);
     }
     if (dashes) nh_text_addf(out, "_%.*s%s", (int)(dashes - 1 < 4 ? dashes - 1 : 4), "dddd", "dot");
 }

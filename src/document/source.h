@@ -21,7 +21,7 @@ typedef struct {
     const char *library[2][2];
     /* text by which code that needs a function for Riemann's equation is recognised, and that function */
     const char *series[2];
-    const char *root;                    /* the square root */
+    const char *root; /* the square root */
     const char *pi;
     const char *power[3];      /* text before, between and after base and exponent */
     const char *declare, *end; /* around `name = value` of a statement */

@@ -121,8 +121,7 @@ static size_t put_side(nh_source *w, nh_ex e, bool below, size_t written)
         nh_ex exponent = nh_exponent_of(w->dag, e, i), base = nh_child(w->dag, e, i);
         if (is_below(w->dag, exponent) != below) continue;
         if (written++) nh_text_add(w->out, "*");
-        if (nh_kind_of(w->dag, exponent) != NH_NUMBER)
-            put_general_power(w, base, exponent);
+        if (nh_kind_of(w->dag, exponent) != NH_NUMBER) put_general_power(w, base, exponent);
         else
             put_power(w, base,
                       below ? nh_num_mul(nh_number_of(w->dag, exponent), nh_num_int(-1))
@@ -248,10 +247,8 @@ void nh_source_put_inside(nh_source *w, nh_ex e, int around)
 
 static void put(nh_source *w, nh_ex e, int around)
 {
-    if (w->name[e])
-        nh_text_add(w->out, w->name[e]);
-    else
-        nh_source_put_inside(w, e, around);
+    if (w->name[e]) nh_text_add(w->out, w->name[e]);
+    else nh_source_put_inside(w, e, around);
 }
 
 void nh_source_put(nh_source *w, nh_ex e) { put(w, e, NH_IN_SUM); }

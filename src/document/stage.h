@@ -21,8 +21,8 @@ typedef struct {
     const nh_time_series *series;
     const nh_observables *tracks; /* line j of the series is track j */
     nh_live *live;
-    const char *command;          /* "nhsym simulate sleigh": to be continued by options */
-    size_t rows;                  /* those of the live quantities, in order */
+    const char *command; /* "nhsym simulate sleigh": to be continued by options */
+    size_t rows;         /* those of the live quantities, in order */
     const nh_stage_row *row;
 } nh_stage;
 

@@ -14,33 +14,33 @@
 typedef struct {
     const char *name;
     size_t count;
-    const double *x, *y;         /* x[i * x_stride], y[i * y_stride] */
+    const double *x, *y; /* x[i * x_stride], y[i * y_stride] */
     size_t x_stride, y_stride;
-    bool dots, marks;            /* points instead of a line; points on the line */
-    const double *heading;       /* NULL, or an angle per point with y_stride, which marks at equal steps show */
+    bool dots, marks;      /* points instead of a line; points on the line */
+    const double *heading; /* NULL, or an angle per point with y_stride, which marks at equal steps show */
 } nh_curve;
 
 /* Rectangles around the points of a grid. */
 typedef struct {
     size_t across, up;
-    const double *x, *y;         /* `across` and `up` values, ascending */
-    char (*fill)[8];             /* "#0072B2", or "": none; fill[i * up + j] at (x[i], y[j]) */
+    const double *x, *y; /* `across` and `up` values, ascending */
+    char (*fill)[8];     /* "#0072B2", or "": none; fill[i * up + j] at (x[i], y[j]) */
 } nh_cells;
 
 typedef struct {
     const char *id, *title, *description, *x_label, *y_label;
-    bool log_x, log_y, equal;    /* equal: both axes have one scale */
-    double floor;                /* with a logarithmic axis: smaller values are drawn there */
+    bool log_x, log_y, equal; /* equal: both axes have one scale */
+    double floor;             /* with a logarithmic axis: smaller values are drawn there */
     /* two values each that the axes must include, too: for plots side by side; or NULL */
     const double *also_x, *also_y;
-    bool fan;                    /* many curves of one quantity: thin, in one colour, without a legend */
-    bool timed;                  /* x is the time: a page may move a cursor along it */
+    bool fan;   /* many curves of one quantity: thin, in one colour, without a legend */
+    bool timed; /* x is the time: a page may move a cursor along it */
     /* points follow each other at equal times: drawn without corners, like those with `equal` */
     bool path;
     size_t curves;
     const nh_curve *curve;
-    const nh_cells *cells;       /* below the curves; or NULL */
-    const nh_view *view;         /* bodies in space at time number `at` instead of curves, cells and axes; or NULL */
+    const nh_cells *cells; /* below the curves; or NULL */
+    const nh_view *view;   /* bodies in space at time number `at` instead of curves, cells and axes; or NULL */
     size_t at;
 } nh_plot;
 

@@ -133,7 +133,10 @@ static void put_moved(const shape *x, nh_text *out)
     if (x->moved > most_named) nh_text_addf(out, "%zu coordinates", x->moved);
     for (size_t s = 0; s < x->o->m && x->moved <= most_named; s++) {
         if (nh_is_zero(x->o->dag, x->space[s])) continue;
-        nh_text_addf(out, "%s%s", !told ? "" : told + 1 == x->moved + time ? " and " : ", ",
+        nh_text_addf(out, "%s%s",
+                     !told                         ? ""
+                     : told + 1 == x->moved + time ? " and "
+                                                   : ", ",
                      x->o->system->coordinate[s].name);
         told++;
     }

@@ -9,7 +9,7 @@
 typedef struct {
     const char *name;
     nh_track_kind kind;
-    const double *value;   /* value[i * stride] at time[i] */
+    const double *value; /* value[i * stride] at time[i] */
     size_t stride;
 } nh_line;
 

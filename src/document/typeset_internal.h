@@ -21,12 +21,12 @@ typedef enum {
 typedef struct nh_formula_node nh_formula_node;
 struct nh_formula_node {
     nh_formula_node_kind kind;
-    const char *text;   /* text of a number, a name (without primes) or a function */
+    const char *text; /* text of a number, a name (without primes) or a function */
     size_t primes;
-    bool minus;         /* a term of a sum that is subtracted */
-    bool followed;      /* a function behind which a factor could be read as part of its argument */
-    nh_formula_node *child;     /* the first of its parts */
-    nh_formula_node *next;      /* the next part of the same whole */
+    bool minus;             /* a term of a sum that is subtracted */
+    bool followed;          /* a function behind which a factor could be read as part of its argument */
+    nh_formula_node *child; /* the first of its parts */
+    nh_formula_node *next;  /* the next part of the same whole */
 };
 
 /* The markup of one form: around a group, around a symbol with an index, a power or an accent, and so on. */
@@ -36,8 +36,8 @@ typedef struct {
     const char *plus, *minus, *equal, *times, *dot_times, *apply, *comma, *number[2], *italic[2], *upright[2], *pi;
     const char *flat_open, *flat_close; /* around what is not tall; open and close grow with their contents */
     const char *wide_open, *wide_close, *wide_bar, *slash; /* parentheses and bars between which a line may break */
-    const char *tall_open, *tall_close; /* the same around fractions, as high as these */
-    const char *next_plus, *next_minus; /* text at the beginning of a piece */
+    const char *tall_open, *tall_close;                    /* the same around fractions, as high as these */
+    const char *next_plus, *next_minus;                    /* text at the beginning of a piece */
 } nh_typeset_script;
 
 const nh_typeset_script *nh_typeset_script_of(nh_typeset_form form);

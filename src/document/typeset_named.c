@@ -13,15 +13,24 @@ static const struct {
     size_t index;             /* number of arguments that form the index */
     const char *between;      /* the others */
 } table[] = {
-    {"legendre_p", "P", NULL, NULL, 1, ","}, {"legendre_q", "Q", NULL, NULL, 1, ","},
-    {"bessel_j", "J", NULL, NULL, 1, ","},   {"bessel_y", "Y", NULL, NULL, 1, ","},
-    {"bessel_i", "I", NULL, NULL, 1, ","},   {"bessel_k", "K", NULL, NULL, 1, ","},
-    {"hyp2f1", "F", "2", "1", 0, ",;;"},     {"gauss_f", "F", NULL, NULL, 3, ","},
-    {"riemann_c", "Pc", NULL, NULL, 3, ","}, {"riemann_s", "Ps", NULL, NULL, 3, ","},
-    {"hyp1f1", "F", "1", "1", 0, ";;"},      {"hyperu", "U", NULL, NULL, 0, ",,"},
-    {"airy_ai", "Ai", NULL, NULL, 0, ","},   {"airy_bi", "Bi", NULL, NULL, 0, ","},
-    {"elliptic_k", "K", NULL, NULL, 0, ","}, {"elliptic_e", "E", NULL, NULL, 0, ","},
-    {"elliptic_f", "F", NULL, NULL, 0, "|"}, {"elliptic_einc", "E", NULL, NULL, 0, "|"},
+    {"legendre_p", "P", NULL, NULL, 1, ","},
+    {"legendre_q", "Q", NULL, NULL, 1, ","},
+    {"bessel_j", "J", NULL, NULL, 1, ","},
+    {"bessel_y", "Y", NULL, NULL, 1, ","},
+    {"bessel_i", "I", NULL, NULL, 1, ","},
+    {"bessel_k", "K", NULL, NULL, 1, ","},
+    {"hyp2f1", "F", "2", "1", 0, ",;;"},
+    {"gauss_f", "F", NULL, NULL, 3, ","},
+    {"riemann_c", "Pc", NULL, NULL, 3, ","},
+    {"riemann_s", "Ps", NULL, NULL, 3, ","},
+    {"hyp1f1", "F", "1", "1", 0, ";;"},
+    {"hyperu", "U", NULL, NULL, 0, ",,"},
+    {"airy_ai", "Ai", NULL, NULL, 0, ","},
+    {"airy_bi", "Bi", NULL, NULL, 0, ","},
+    {"elliptic_k", "K", NULL, NULL, 0, ","},
+    {"elliptic_e", "E", NULL, NULL, 0, ","},
+    {"elliptic_f", "F", NULL, NULL, 0, "|"},
+    {"elliptic_einc", "E", NULL, NULL, 0, "|"},
     {"elliptic_pi", "\u03a0", NULL, NULL, 0, ";|"},
 };
 enum { rows = sizeof table / sizeof *table };

@@ -6,8 +6,8 @@
 #include "document/typeset_internal.h"
 
 typedef struct {
-    double widest;        /* width of a piece, in letters */
-    nh_typeset_writer w;  /* writes to the present piece */
+    double widest;       /* width of a piece, in letters */
+    nh_typeset_writer w; /* writes to the present piece */
     nh_text text;
     nh_typeset_piece *piece;
     void *context;

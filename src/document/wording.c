@@ -32,9 +32,8 @@ static const nh_glossary_entry entries[] = {
      "0."},
     {"conserved quantity", "The same as a first integral."},
     {"current", "A first integral Phi together with the field Z, the symmetry that gives it."},
-    {"E",
-     "The energy v dL/dv - L. It is conserved where neither the Lagrangian nor the constraints depend on time and "
-     "no other force does work."},
+    {"E", "The energy v dL/dv - L. It is conserved where neither the Lagrangian nor the constraints depend on time and "
+          "no other force does work."},
     {"trivial", "A current is trivial if it is the same number at all states. Its field is a multiple of Gamma."},
     {"momentum", "The momentum of a coordinate x is dL/dx'. The momentum of a field of the group is the sum of its "
                  "components times these (nhsym reduce)."},

@@ -143,8 +143,7 @@ static nh_machine *put_into_list(nh_text *text)
 static nh_machine *machine_of(const nh_tape *tape, bool start)
 {
     if (tape->length > most_instructions) return NULL;
-    for (size_t i = 0; i < tape->length; i++)
-        /* the C library does not have these; they take most of the time */
+    for (size_t i = 0; i < tape->length; i++) /* the C library does not have these; they take most of the time */
         if (nh_op_is_named(tape->code[i].op)) return NULL;
     nh_text text;
     nh_text_init(&text);

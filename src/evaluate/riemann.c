@@ -224,9 +224,9 @@ void nh_riemann(acb_t out, bool second, bool prime, acb_srcptr argument, slong b
 enum { most_centres = 256, most_paths = 8 };
 
 typedef struct {
-    double at, end;  /* exact */
-    arb_ptr u;       /* of the series */
-    mag_ptr beyond;  /* what its end adds to y and y' */
+    double at, end; /* exact */
+    arb_ptr u;      /* of the series */
+    mag_ptr beyond; /* what its end adds to y and y' */
 } centre;
 
 typedef struct {

@@ -18,7 +18,7 @@ static const double call = 8, each_value = 0.3;
 
 /* ---- values of single operations ---- */
 
-#define X(id, name, parity, at_zero, at_one) \
+#define X(id, name, parity, at_zero, at_one)                                                                           \
     case NH_##id: return name(a);
 static double call_value(unsigned f, double a, double b)
 {
@@ -66,9 +66,9 @@ enum { constant_word = UINT16_MAX, most_more = UINT16_MAX };
 
 typedef struct {
     nh_dag *dag;
-    uint32_t *value;     /* per node: virtual register + 1 */
-    double *constant;    /* virtual registers that are constants; parallel to kind */
-    char *kind;          /* 'i' input, 'c' constant, 't' temporary */
+    uint32_t *value;  /* per node: virtual register + 1 */
+    double *constant; /* virtual registers that are constants; parallel to kind */
+    char *kind;       /* 'i' input, 'c' constant, 't' temporary */
     size_t count, kind_capacity, constant_capacity;
     nh_instruction *code;
     size_t length, capacity;
@@ -416,10 +416,10 @@ void nh_tape_eval(const nh_tape *tape, nh_tape_work *work, const double *in, dou
     double *r = work->scalar;
     const nh_instruction *x = tape->code, *end = x + tape->length;
     if (tape->inputs) memcpy(r, in, tape->inputs * sizeof *r);
-#define DISPATCH() \
-    do { \
-        if (x == end) goto done; \
-        goto *(x->op < NH_OP_FUNCTION ? plain[x->op] : &&other); \
+#define DISPATCH()                                                                                                     \
+    do {                                                                                                               \
+        if (x == end) goto done;                                                                                       \
+        goto *(x->op < NH_OP_FUNCTION ? plain[x->op] : &&other);                                                       \
     } while (0)
     DISPATCH();
 add:

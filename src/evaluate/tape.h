@@ -8,7 +8,6 @@
 
 #include "graph/expr.h"
 
-
 enum { NH_BATCH = 256 }; /* points per batch: below 64 slow, 128 to 512 flat (docs/performance.md) */
 
 typedef struct nh_tape nh_tape;

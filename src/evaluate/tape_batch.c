@@ -57,20 +57,23 @@ static const double in_batch = 0.25; /* effort of a batch per point, as a part o
 /* Points are computed in whole blocks, the widest vector of doubles: no loop has a remainder. */
 enum { BLOCK = 8 };
 
-#define LOOP(formula)                                                                                \
-    {                                                                                                \
-        (void)b;                                                                                     \
-        n &= ~(size_t)(BLOCK - 1);                                                                   \
-        for (size_t i = 0; i < n; i++) to[i] = (formula);                                            \
+#define LOOP(formula)                                                                                                  \
+    {                                                                                                                  \
+        (void)b;                                                                                                       \
+        n &= ~(size_t)(BLOCK - 1);                                                                                     \
+        for (size_t i = 0; i < n; i++) to[i] = (formula);                                                              \
     }
 #define ARGUMENTS size_t n, double *restrict to, const double *a, const double *b
 
 #define KERNEL(name, formula) NH_CLONES UNCHECKED static void name(ARGUMENTS) LOOP(formula)
 
-#define FUNCTION(name, formula)                                                                      \
-    FOURS UNCHECKED static void name##_by_fours(ARGUMENTS) LOOP(formula)                             \
-    UNCHECKED static void name##_otherwise(ARGUMENTS) LOOP(formula)                                  \
-    static void name(ARGUMENTS) { (HAS_FOURS ? name##_by_fours : name##_otherwise)(n, to, a, b); }
+#define FUNCTION(name, formula)                                                                                        \
+    FOURS UNCHECKED static void name##_by_fours(ARGUMENTS) LOOP(formula)                                               \
+        UNCHECKED static void name##_otherwise(ARGUMENTS) LOOP(formula) static void                                    \
+        name(ARGUMENTS)                                                                                                \
+    {                                                                                                                  \
+        (HAS_FOURS ? name##_by_fours : name##_otherwise)(n, to, a, b);                                                 \
+    }
 
 KERNEL(k_add, a[i] + b[i])
 KERNEL(k_sub, a[i] - b[i])
@@ -92,11 +95,18 @@ typedef void kernel(size_t n, double *restrict to, const double *a, const double
 
 #define X(id, name, parity, at_zero, at_one) [NH_OP_FUNCTION + NH_##id] = k_##name,
 static kernel *const table[] = {
-    [NH_OP_ADD] = k_add, [NH_OP_SUB] = k_sub, [NH_OP_MUL] = k_mul, [NH_OP_DIV] = k_div, [NH_OP_NEG] = k_neg,
-    [NH_OP_INV] = k_inv, [NH_OP_SQUARE] = k_square, [NH_OP_SQRT] = k_sqrt, [NH_OP_POW] = k_pow,
-    NH_ELEMENTARY_TABLE(X)
-    [NH_OP_FUNCTION + NH_ABS] = k_abs,
-    [NH_OP_FUNCTION + NH_SIGN] = k_sign, [NH_OP_FUNCTION + NH_ATAN2] = k_atan2,
+    [NH_OP_ADD] = k_add,
+    [NH_OP_SUB] = k_sub,
+    [NH_OP_MUL] = k_mul,
+    [NH_OP_DIV] = k_div,
+    [NH_OP_NEG] = k_neg,
+    [NH_OP_INV] = k_inv,
+    [NH_OP_SQUARE] = k_square,
+    [NH_OP_SQRT] = k_sqrt,
+    [NH_OP_POW] = k_pow,
+    NH_ELEMENTARY_TABLE(X)[NH_OP_FUNCTION + NH_ABS] = k_abs,
+    [NH_OP_FUNCTION + NH_SIGN] = k_sign,
+    [NH_OP_FUNCTION + NH_ATAN2] = k_atan2,
 };
 #undef X
 

@@ -7,7 +7,7 @@
 #define NH_TAPE_COMPLEX_H
 
 #include "evaluate/named_value.h" /* complex numbers */
-#undef I /* the macro is removed: elsewhere the inertia is called I */
+#undef I                          /* the macro is removed: elsewhere the inertia is called I */
 
 #include "evaluate/tape.h"
 

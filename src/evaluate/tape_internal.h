@@ -10,7 +10,15 @@ typedef struct nh_machine nh_machine;
 typedef void nh_machine_code(const double *in, double *out);
 
 typedef enum {
-    NH_OP_ADD, NH_OP_SUB, NH_OP_MUL, NH_OP_DIV, NH_OP_NEG, NH_OP_INV, NH_OP_SQUARE, NH_OP_SQRT, NH_OP_POW,
+    NH_OP_ADD,
+    NH_OP_SUB,
+    NH_OP_MUL,
+    NH_OP_DIV,
+    NH_OP_NEG,
+    NH_OP_INV,
+    NH_OP_SQUARE,
+    NH_OP_SQRT,
+    NH_OP_POW,
     NH_OP_FUNCTION /* + nh_function */
 } nh_op;
 
@@ -27,7 +35,7 @@ typedef struct {
 /* Registers: [0, inputs) inputs, [inputs, inputs + constants) constants, then temporaries. */
 struct nh_tape {
     size_t inputs, constants, registers, length, outputs;
-    double effort;    /* units of one evaluation (base/effort.h) */
+    double effort; /* units of one evaluation (base/effort.h) */
     double *constant;
     nh_instruction *code;
     nh_more_arguments *more;
@@ -37,9 +45,9 @@ struct nh_tape {
 };
 
 struct nh_tape_work {
-    double *scalar;  /* registers, for one point */
-    double *batch;   /* (registers - inputs) rows of NH_BATCH */
-    double **row;    /* registers: pointers into batch or to the inputs */
+    double *scalar;        /* registers, for one point */
+    double *batch;         /* (registers - inputs) rows of NH_BATCH */
+    double **row;          /* registers: pointers into batch or to the inputs */
     nh_machine_code *code; /* runs instead of the instructions; NULL: the instructions are interpreted */
     nh_machine *machine;   /* where the code comes from, now or later */
     double patience;       /* the tape is compiled when it has cost so many times what compiling costs */

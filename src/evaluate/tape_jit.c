@@ -8,7 +8,7 @@
 enum { first_look = 500 };
 /* units of effort that compiling costs: per tape, and per instruction (docs/performance.md) */
 static const double price = 5e7, price_each = 2e5;
-static const double between_looks = 2e6;           /* units of effort between two looks while the compiler runs */
+static const double between_looks = 2e6; /* units of effort between two looks while the compiler runs */
 
 double nh_op_effort(unsigned op)
 {

@@ -386,8 +386,7 @@ static bool leading_part(const nh_integration *in, nh_ex f, nh_ex *L, int64_t *d
     nh_ex s = nh_symbol_fresh(d, "L");
     *coefficient = nh_substitute(d, f, 1, L, &s);
     for (*degree = 0; *degree <= highest_degree && nh_depends(d, *coefficient, s); ++*degree)
-        *coefficient = nh_simplify_short(
-            d, nh_mul(d, nh_ratio(d, 1, *degree + 1), nh_diff(d, *coefficient, s)), 0);
+        *coefficient = nh_simplify_short(d, nh_mul(d, nh_ratio(d, 1, *degree + 1), nh_diff(d, *coefficient, s)), 0);
     return *degree >= 1 && *degree <= highest_degree;
 }
 

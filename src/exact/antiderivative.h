@@ -19,15 +19,14 @@
 
 #include "graph/expr.h"
 
-
 typedef struct {
     nh_dag *dag;
     nh_ex x;
     size_t constants;
-    const nh_ex *constant;   /* symbols: parameters, and constants of earlier integrations */
-    size_t max_terms;        /* largest number of terms of polynomials; 0: the default of relation.h */
-    bool elliptic;           /* elliptic integrals of an angle are candidates, too */
-    bool within_half_turn;   /* these with amplitudes from -pi/2 to pi/2, which jump */
+    const nh_ex *constant; /* symbols: parameters, and constants of earlier integrations */
+    size_t max_terms;      /* largest number of terms of polynomials; 0: the default of relation.h */
+    bool elliptic;         /* elliptic integrals of an angle are candidates, too */
+    bool within_half_turn; /* these with amplitudes from -pi/2 to pi/2, which jump */
     /* The sign of a function of x and the constants wherever F is needed; 0: it changes, or is not known.  It chooses
      * among the forms of a real logarithm. */
     int (*sign)(void *context, nh_ex e);

@@ -32,7 +32,7 @@ struct nh_ball {
     long bits;
     uint32_t epoch;
     int depth;
-    memo *of;          /* one per node */
+    memo *of; /* one per node */
     size_t capacity;
     setting *set;
     size_t sets, set_capacity;
@@ -191,8 +191,8 @@ static bool eval_product(nh_ball *ball, nh_ex e, arb_t out)
     bool fine = true;
     nh_ball_set_number(ball, out, nh_constant_of(ball->dag, e));
     for (size_t i = 0; i < nh_arity(ball->dag, e) && fine; i++) {
-        fine = eval(ball, nh_child(ball->dag, e, i), factor)
-               && eval_power(ball, factor, nh_exponent_of(ball->dag, e, i));
+        fine =
+            eval(ball, nh_child(ball->dag, e, i), factor) && eval_power(ball, factor, nh_exponent_of(ball->dag, e, i));
         if (fine) arb_mul(out, out, factor, ball->bits);
     }
     arb_clear(factor);
@@ -227,10 +227,10 @@ static bool eval_named(nh_ball *ball, nh_ex e, arb_t out)
 static bool eval_function(nh_ball *ball, nh_ex e, arb_t out)
 {
     static unary *const table[NH_FUNCTION_COUNT] = {
-        [NH_SIN] = arb_sin, [NH_COS] = arb_cos, [NH_TAN] = arb_tan, [NH_ASIN] = arb_asin, [NH_ACOS] = arb_acos,
-        [NH_ATAN] = arb_atan, [NH_SINH] = arb_sinh, [NH_COSH] = arb_cosh, [NH_TANH] = arb_tanh, [NH_ASINH] = arb_asinh,
-        [NH_ACOSH] = arb_acosh, [NH_ATANH] = arb_atanh, [NH_EXP] = arb_exp, [NH_LOG] = arb_log, [NH_ABS] = absolute,
-        [NH_SIGN] = sign};
+        [NH_SIN] = arb_sin,   [NH_COS] = arb_cos,     [NH_TAN] = arb_tan,     [NH_ASIN] = arb_asin,
+        [NH_ACOS] = arb_acos, [NH_ATAN] = arb_atan,   [NH_SINH] = arb_sinh,   [NH_COSH] = arb_cosh,
+        [NH_TANH] = arb_tanh, [NH_ASINH] = arb_asinh, [NH_ACOSH] = arb_acosh, [NH_ATANH] = arb_atanh,
+        [NH_EXP] = arb_exp,   [NH_LOG] = arb_log,     [NH_ABS] = absolute,    [NH_SIGN] = sign};
     nh_function f = nh_function_of(ball->dag, e);
     if (f == NH_PI) {
         arb_const_pi(out, ball->bits);
@@ -311,15 +311,9 @@ static void set_to(nh_ball *ball, nh_ex symbol, nh_ex value, bool middle)
     arb_clear(v);
 }
 
-void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value)
-{
-    set_to(ball, symbol, value, false);
-}
+void nh_ball_set_expression(nh_ball *ball, nh_ex symbol, nh_ex value) { set_to(ball, symbol, value, false); }
 
-void nh_ball_set_middle(nh_ball *ball, nh_ex symbol, nh_ex value)
-{
-    set_to(ball, symbol, value, true);
-}
+void nh_ball_set_middle(nh_ball *ball, nh_ex symbol, nh_ex value) { set_to(ball, symbol, value, true); }
 
 /* A double, and an upper bound for its distance from any point of the ball. */
 static void round_ball(const arb_t v, double *mid, double *radius)

@@ -7,7 +7,6 @@
 
 #include "graph/expr.h"
 
-
 /* Values of some symbols, at some precision, and a memo of every evaluated node.  The ball borrows the graph;
  * nh_ball_free. */
 typedef struct nh_ball nh_ball;

@@ -21,8 +21,8 @@ static bool quotient(nh_ball *ball, size_t n, const nh_ex *M, const nh_ex *K, ac
     arb_mat_init(left, (slong)n, (slong)n);
     arb_mat_init(right, (slong)n, (slong)n);
     arb_mat_init(both, (slong)n, (slong)n);
-    bool good = values(ball, n, M, left) && values(ball, n, K, right) &&
-                arb_mat_solve(both, left, right, nh_ball_bits(ball));
+    bool good =
+        values(ball, n, M, left) && values(ball, n, K, right) && arb_mat_solve(both, left, right, nh_ball_bits(ball));
     if (good) acb_mat_set_arb_mat(out, both);
     arb_mat_clear(both);
     arb_mat_clear(right);

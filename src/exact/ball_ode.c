@@ -11,8 +11,8 @@ enum { nodes = 56, terms = NH_ODE_TERMS, most_tries = 10, rejected_each = 8 };
 static const double guard_digits = 6, condition_digits = 24,
                     lost_each =
                         /* digits that each further power of an interpolating polynomial loses: log10(1 + sqrt 2) */
-                        0.39,
-    same_word = 20;
+                    0.39,
+                    same_word = 20;
 
 long nh_ball_ode_bits(double digits)
 {
@@ -331,10 +331,8 @@ void nh_ode_evaluate(const nh_ball_ode *o, const nh_ode_piece *p, double s, bool
         arb_zero(out + i);
         for (size_t k = terms; k-- > (derivative ? 1 : 0);) {
             arb_mul(out + i, out + i, x, o->bits);
-            if (derivative)
-                arb_addmul_ui(out + i, p->f + k * step + i, k, o->bits);
-            else
-                arb_add(out + i, out + i, p->f + k * step + i, o->bits);
+            if (derivative) arb_addmul_ui(out + i, p->f + k * step + i, k, o->bits);
+            else arb_add(out + i, out + i, p->f + k * step + i, o->bits);
             mag_zero(arb_radref(out + i));
         }
         if (derivative) arb_div(out + i, out + i, h, o->bits);
@@ -369,10 +367,8 @@ bool nh_ode_add_piece(nh_ball_ode *o, double centre, double half, double least, 
         }
     }
     o->guess = p.half * fmin(2, fmax(0.8, 0.9 * pow(10, fmin(20, target - error) / nodes)));
-    if (done)
-        o->piece[o->pieces++] = p;
-    else
-        _arb_vec_clear(p.f, (slong)entries(o));
+    if (done) o->piece[o->pieces++] = p;
+    else _arb_vec_clear(p.f, (slong)entries(o));
     arb_mat_clear(X);
     return done;
 }

@@ -244,10 +244,8 @@ void nh_ball_ode_normalise(nh_ball_ode *o, double s)
     functions(o, piece_at(o, s), s, F);
     for (slong i = 0; i < W + d; i++)
         for (slong v = 0; v < d; v++) {
-            if (i < W)
-                arb_set(arb_mat_entry(A, i, v), arb_mat_entry(F, i, v));
-            else
-                arb_set_ui(arb_mat_entry(A, i, v), i - W == v);
+            if (i < W) arb_set(arb_mat_entry(A, i, v), arb_mat_entry(F, i, v));
+            else arb_set_ui(arb_mat_entry(A, i, v), i - W == v);
         }
     for (slong i = 0; i < W && done < d; i++) {
         double best = small;

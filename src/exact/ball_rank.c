@@ -41,7 +41,7 @@ static void bounds_of(size_t width, arb_srcptr row, double *lower, double *upper
 }
 
 bool nh_ball_rank_left(nh_ball *ball, size_t rows, size_t width, const nh_ex *e, const double *scale,
-    double *log10_lower, double *log10_upper)
+                       double *log10_lower, double *log10_upper)
 {
     long bits = nh_ball_bits(ball);
     arb_ptr a = _arb_vec_init((slong)(rows * width)), last = a + (rows - 1) * width;

@@ -9,6 +9,6 @@
  * remainder of the last row, relative to its largest entry: a finite lower bound proves that the rank grows.  False
  * where something is not finite, the earlier rows are not known to be independent, or the row vanishes. */
 bool nh_ball_rank_left(nh_ball *ball, size_t rows, size_t width, const nh_ex *e, const double *scale,
-    double *log10_lower, double *log10_upper);
+                       double *log10_lower, double *log10_upper);
 
 #endif

@@ -26,8 +26,8 @@ struct nh_ball_series {
     size_t defined;
     const nh_ball_defined *define;
     long bits;
-    slong terms;          /* number of terms of the series at present */
-    arb_t from, interval; /* a place, and a ball that contains everything from it to the next place */
+    slong terms;                /* number of terms of the series at present */
+    arb_t from, interval;       /* a place, and a ball that contains everything from it to the next place */
     arb_ptr at_from, at_centre; /* per defined symbol: the value of an integral at the place */
     size_t nodes, used;
     memo *of;   /* per node */
@@ -267,10 +267,8 @@ static bool take_terms(nh_ball_series *s, size_t count, const nh_ex *e, size_t d
         bound[i] = 0;
         for (size_t k = 0; k < degree + beyond && fine; k++) {
             double off, value = rounded(s, p, (slong)k, &off);
-            if (k < degree)
-                coefficient[i * degree + k] = value;
-            else
-                off += fabs(value);
+            if (k < degree) coefficient[i * degree + k] = value;
+            else off += fabs(value);
             bound[i] += off * pow(half, (double)k);
         }
     }

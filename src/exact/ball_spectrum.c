@@ -97,8 +97,8 @@ static double distance(acb_srcptr a, acb_srcptr b)
     acb_t d;
     acb_init(d);
     acb_sub(d, a, b, pellet_bits);
-    double value = hypot(arf_get_d(arb_midref(acb_realref(d)), ARF_RND_NEAR),
-                         arf_get_d(arb_midref(acb_imagref(d)), ARF_RND_NEAR));
+    double value =
+        hypot(arf_get_d(arb_midref(acb_realref(d)), ARF_RND_NEAR), arf_get_d(arb_midref(acb_imagref(d)), ARF_RND_NEAR));
     acb_clear(d);
     return value;
 }

@@ -8,7 +8,7 @@
 enum { most_terms = 400, most_degree = 60, most_bits = 400, most_list = 16, most_square = 1000 };
 static const double vanishing = 1e-8,
                     /* bounds: of a polynomial relative to its terms; of the difference of two values of the unknown */
-                    same = 1e-6;
+    same = 1e-6;
 
 typedef struct {
     const nh_zero_point *at;
@@ -99,8 +99,8 @@ static bool without_roots(const list *l, fmpz_mpoly_struct *p)
         good = fmpz_mpoly_pow_ui(power, power, r->order, l->ctx);
         fmpz_mpoly_mul(power, power, r->den, l->ctx);
         fmpz_mpoly_sub(power, power, r->num, l->ctx);
-        good = good && fmpz_mpoly_resultant(p, p, power, r->generator, l->ctx) && !fmpz_mpoly_is_zero(p, l->ctx)
-               && small(l, p);
+        good = good && fmpz_mpoly_resultant(p, p, power, r->generator, l->ctx) && !fmpz_mpoly_is_zero(p, l->ctx) &&
+               small(l, p);
     }
     fmpz_mpoly_clear(power, l->ctx);
     return good;
@@ -323,8 +323,8 @@ static bool coefficients(const list *l, const fmpz_mpoly_struct *p, size_t gener
         ulong e = (ulong)i;
         fmpz_mpoly_get_coeff_vars_ui(&c[i], p, &variable, &e, 1, l->ctx);
     }
-    return most >= 1
-           && (most <= 2 || (most == 4 && fmpz_mpoly_is_zero(&c[1], l->ctx) && fmpz_mpoly_is_zero(&c[3], l->ctx)));
+    return most >= 1 &&
+           (most <= 2 || (most == 4 && fmpz_mpoly_is_zero(&c[1], l->ctx) && fmpz_mpoly_is_zero(&c[3], l->ctx)));
 }
 
 static bool solve(const list *l, const fmpz_mpoly_struct *p, size_t generator, nh_zero_root *out)

@@ -25,8 +25,8 @@ typedef struct {
     const nh_quotient *rational, *factor;
     size_t roots;
     const nh_quotient *root[NH_MOST_ROOTS]; /* positive at the point */
-    int power[NH_MOST_ROOTS]; /* 1 or -1 */
-    unsigned outer; /* 1 or 2 */
+    int power[NH_MOST_ROOTS];               /* 1 or -1 */
+    unsigned outer;                         /* 1 or 2 */
 } nh_zero_root;
 
 /* Finds the unknown number k of the point, which satisfies all equations (quotients without denominators).  False: it

@@ -47,8 +47,10 @@ static nh_ex in_symbols(root_search *x, nh_ex e)
     const nh_root_field *f = x->f;
     nh_ex mark = nh_symbol_fresh(d, "mark"), power = mark, zero = nh_int(d, 0), one = nh_int(d, 1);
     for (size_t i = 0; i < f->angles + f->exponents; i++, power = nh_mul(d, power, mark))
-        e = nh_add(d, e, nh_mul(d, power, i < f->angles ? nh_call(d, NH_SIN, f->angle[i])
-                                                        : nh_call(d, NH_EXP, f->exponent[i - f->angles])));
+        e = nh_add(
+            d, e,
+            nh_mul(d, power,
+                   i < f->angles ? nh_call(d, NH_SIN, f->angle[i]) : nh_call(d, NH_EXP, f->exponent[i - f->angles])));
     e = nh_substitute(d, nh_canonical_sum(d, e), 1, &mark, &zero);
     for (size_t i = f->roots; i-- > 0;) e = nh_substitute_root(d, e, f->radicand[i], x->symbol[i]);
     for (size_t i = 0; i < f->angles; i++) {

@@ -10,7 +10,6 @@
 
 #include "graph/expr.h"
 
-
 /* Generators besides symbols, logarithms and the like; arguments and radicands in canonical form (normal.h). */
 typedef struct {
     size_t angles, exponents, roots;

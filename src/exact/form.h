@@ -10,8 +10,8 @@
 
 /* The state that all normal forms of one computation share. */
 typedef struct {
-    nh_dag *dag;             /* borrowed */
-    bool literal, coarse;    /* see kernel.h; coarse: arguments are not */
+    nh_dag *dag;          /* borrowed */
+    bool literal, coarse; /* see kernel.h; coarse: arguments are not */
     size_t max_terms;
     int depth;
     nh_index rewritten, canonical;
@@ -21,7 +21,7 @@ typedef struct {
     nh_kernels kernels;
     nh_quotient_field *field;
     const nh_quotient *value;
-    nh_index known;          /* node -> index into `of` */
+    nh_index known; /* node -> index into `of` */
     const nh_quotient **of;
     size_t count, capacity;
 } nh_form;

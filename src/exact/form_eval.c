@@ -7,7 +7,6 @@
 
 typedef const nh_quotient *quotient;
 
-
 static quotient eval_number(nh_form *f, nh_num c)
 {
     if (nh_num_short(c) || !f->kernels.opaque) return nh_quotient_number(f->field, c);
@@ -179,7 +178,8 @@ static quotient eval_function(nh_form *f, nh_ex e)
     case NH_COS: return rotation_of(f, NH_KERNEL_SIN, a).cosine;
     case NH_SINH: return hyperbolic(f, a).sine;
     case NH_COSH: return hyperbolic(f, a).cosine;
-    case NH_TAN: case NH_TANH:
+    case NH_TAN:
+    case NH_TANH:
         r = function == NH_TAN ? rotation_of(f, NH_KERNEL_SIN, a) : hyperbolic(f, a);
         return nh_quotient_mul(f->field, r.sine, nh_quotient_inv(f->field, r.cosine));
     case NH_EXP: return eval_growth(f, NH_KERNEL_EXP, 0, a);

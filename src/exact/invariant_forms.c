@@ -20,8 +20,8 @@ typedef struct {
     nh_relation_question relation;
     nh_quotient_field *field;
     nh_arena *arena, *scratch;
-    size_t unknowns;         /* S_ij, i <= j, row by row */
-    combination *solved;     /* per solved unknown: its value in terms of those before it */
+    size_t unknowns;     /* S_ij, i <= j, row by row */
+    combination *solved; /* per solved unknown: its value in terms of those before it */
     bool *is_solved;
     const nh_quotient **sum; /* per unknown: its coefficient in the present equation */
     const nh_quotient *minus;
@@ -75,8 +75,7 @@ static size_t reduce(problem *p, size_t last)
         }
         const combination *s = &p->solved[u];
         p->sum[u] = NULL;
-        for (size_t k = 0; k < s->count; k++)
-            add(p, s->unknown[k], nh_quotient_mul(p->field, factor, s->factor[k]));
+        for (size_t k = 0; k < s->count; k++) add(p, s->unknown[k], nh_quotient_mul(p->field, factor, s->factor[k]));
     }
     return highest;
 }
@@ -151,7 +150,7 @@ static size_t subtract(const problem *p, const combination *a, const combination
                 const nh_quotient *less = second ? nh_quotient_mul(p->field, p->minus, b->factor[j]) : NULL;
                 out->unknown[count] = u;
                 out->factor[count] = !first ? less
-                                   : less   ? nh_quotient_add(p->field, a->factor[i], less)
+                                     : less ? nh_quotient_add(p->field, a->factor[i], less)
                                             : a->factor[i];
             }
             count++;
@@ -262,8 +261,7 @@ static void write_forms(problem *p, nh_invariant_forms *out)
         if (!p->is_solved[u]) v[dimension++] = vector_of(p, u);
     shorten_all(p, dimension, v);
     out->form = nh_arena_alloc(p->arena, (dimension + 1) * sizeof *out->form);
-    for (size_t k = 0; k < dimension && fine(p); k++)
-        out->count += write_form(p, &v[k], &out->form[out->count]);
+    for (size_t k = 0; k < dimension && fine(p); k++) out->count += write_form(p, &v[k], &out->form[out->count]);
     nh_free(v);
 }
 

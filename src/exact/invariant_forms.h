@@ -15,16 +15,16 @@
 typedef struct {
     nh_dag *dag;
     size_t n, parameters;
-    const nh_ex *z;         /* n symbols; the forms are chosen as simple as possible in the first of them */
-    const nh_ex *A;         /* n x n, row by row, of numbers and parameters */
+    const nh_ex *z; /* n symbols; the forms are chosen as simple as possible in the first of them */
+    const nh_ex *A; /* n x n, row by row, of numbers and parameters */
     nh_ex c;
     const nh_ex *parameter; /* symbols */
 } nh_invariant_question;
 
 typedef struct {
-    const char *obstacle;   /* why the forms are not known, or NULL */
+    const char *obstacle; /* why the forms are not known, or NULL */
     size_t count;
-    nh_ex *form;            /* a basis, without exp(c t): polynomials of z and the parameters without common factor */
+    nh_ex *form; /* a basis, without exp(c t): polynomials of z and the parameters without common factor */
 } nh_invariant_forms;
 
 /* In the arena; expressions belong to the graph.  The work of the field is counted (base/budget.h). */

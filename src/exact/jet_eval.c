@@ -349,8 +349,13 @@ static void compute(nh_jet_eval *v, nh_ex e)
     case NH_PRODUCT: product(v, e, out); break;
     default:
         switch (nh_function_of(v->dag, e)) {
-        case NH_SIN: case NH_COS: case NH_TAN: circular(v, e, out); break;
-        case NH_EXP: case NH_SINH: case NH_COSH: case NH_TANH: exponential(v, e, out); break;
+        case NH_SIN:
+        case NH_COS:
+        case NH_TAN: circular(v, e, out); break;
+        case NH_EXP:
+        case NH_SINH:
+        case NH_COSH:
+        case NH_TANH: exponential(v, e, out); break;
         case NH_UNSPECIFIED: unspecified(v, e, out); break;
         default:
             if (is_solution(v, e)) solution(v, e, out);

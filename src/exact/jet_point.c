@@ -137,17 +137,27 @@ static bool note_inverse(nh_jet_point *x, nh_ex e)
 static bool note_function(nh_jet_point *x, nh_ex e)
 {
     switch (nh_function_of(x->dag, e)) {
-    case NH_SIN: case NH_COS: case NH_TAN: return note_parts(x, NH_JET_CIRCLE, nh_child(x->dag, e, 0));
+    case NH_SIN:
+    case NH_COS:
+    case NH_TAN: return note_parts(x, NH_JET_CIRCLE, nh_child(x->dag, e, 0));
     case NH_EXP:
     case NH_SINH:
     case NH_COSH:
     case NH_TANH: return note_parts(x, NH_JET_EXPONENTIAL, nh_child(x->dag, e, 0));
-    case NH_ABS: case NH_SIGN:
+    case NH_ABS:
+    case NH_SIGN:
         if (find(x, NH_JET_FREE, e)) return true;
         if (x->pieces++) x->obstacle = "several functions that are defined piece by piece";
         return note(x, NH_JET_FREE, e, 1);
-    case NH_ASIN: case NH_ACOS: case NH_ASINH: case NH_ACOSH: return note_inverse(x, e);
-    case NH_ATAN: case NH_ATANH: case NH_LOG: case NH_ATAN2: case NH_PI: return note(x, NH_JET_FREE, e, 1);
+    case NH_ASIN:
+    case NH_ACOS:
+    case NH_ASINH:
+    case NH_ACOSH: return note_inverse(x, e);
+    case NH_ATAN:
+    case NH_ATANH:
+    case NH_LOG:
+    case NH_ATAN2:
+    case NH_PI: return note(x, NH_JET_FREE, e, 1);
     case NH_UNSPECIFIED: return true; /* its values need no relations */
     default:
         if (x->solutions && nh_is_named_function(nh_function_of(x->dag, e)) && note_first_order(x, e))
@@ -329,8 +339,7 @@ bool nh_jet_point_root(nh_jet_point *x, nh_ex radicand, nh_residue value, nh_num
 static bool random_angle(const nh_jet_point *x, nh_jet_kernel *k, unsigned which)
 {
     nh_prime f = x->field;
-    nh_residue u = draw(x, k, which), square = nh_residue_mul(f, u, u),
-               bottom = nh_residue_add(f, 1, square);
+    nh_residue u = draw(x, k, which), square = nh_residue_mul(f, u, u), bottom = nh_residue_add(f, 1, square);
     if (!bottom) return false;
     nh_residue inverse = nh_residue_inverse(f, bottom);
     k->value = nh_residue_mul(f, nh_residue_sub(f, 1, square), inverse);
@@ -483,8 +492,7 @@ const nh_jet_kernel *nh_jet_point_solution(nh_jet_point *x, nh_ex f)
 {
     nh_jet_kernel *k = find(x, NH_JET_FIRST_ORDER, f);
     if (!k) k = find(x, NH_JET_SOLUTION, base_of(x->dag, f));
-    if (!k->chosen)
-        k->value = draw(x, k, 0), k->sine = draw(x, k, 1), k->chosen = true;
+    if (!k->chosen) k->value = draw(x, k, 0), k->sine = draw(x, k, 1), k->chosen = true;
     return k;
 }
 

@@ -34,15 +34,15 @@ typedef enum {
 
 typedef struct {
     nh_jet_kernel_kind kind;
-    nh_ex key;             /* an atom, a radicand, or the expression that is a kernel by itself */
-    uint64_t order;        /* the kernel is a function of key/order, or the root of key of this order */
+    nh_ex key;      /* an atom, a radicand, or the expression that is a kernel by itself */
+    uint64_t order; /* the kernel is a function of key/order, or the root of key of this order */
     bool chosen;
     nh_residue value, sine; /* residue of exp, root or primitive; or of cos and sin, or of f and f' */
     /* of f; P of asin, acos, asinh, acosh: the derivative by the argument, which has a root; of a square root that is
      * a function of other kernels: this function */
     nh_ex P, Q;
-    bool dependent;        /* such a root */
-    size_t place;          /* the index of the argument of f that varies */
+    bool dependent; /* such a root */
+    size_t place;   /* the index of the argument of f that varies */
 } nh_jet_kernel;
 
 /* For each node of a graph: the memory of its series, and what is known of it; all empty between two evaluations. */
@@ -55,18 +55,18 @@ typedef struct {
 typedef struct {
     nh_dag *dag;
     nh_prime field;
-    uint64_t random;        /* the seed of this point */
-    nh_jet_table spare;     /* of an evaluation that ended: graphs are large, and few of their nodes are needed */
+    uint64_t random;    /* the seed of this point */
+    nh_jet_table spare; /* of an evaluation that ended: graphs are large, and few of their nodes are needed */
     nh_jet_kernel *kernel;
     size_t kernels, capacity;
-    size_t pieces;          /* number of kernels |u| */
+    size_t pieces; /* number of kernels |u| */
     /* roots may have any sign: each choice is another homomorphism where they are independent */
     bool conjugates;
     /* the sign of a function where the roots have their values, 0 where it is not known; NULL */
     int (*sign)(void *context, nh_ex e);
     void *context;
-    bool solutions;         /* named functions are accepted (graph/named_function.h) */
-    const char *obstacle;   /* why an expression cannot be evaluated at points, or NULL */
+    bool solutions;       /* named functions are accepted (graph/named_function.h) */
+    const char *obstacle; /* why an expression cannot be evaluated at points, or NULL */
 } nh_jet_point;
 
 /* Borrows the graph; nh_jet_point_free. */

@@ -15,16 +15,16 @@
 typedef struct {
     nh_prime field;
     size_t variables, order, size;
-    const size_t *weight;    /* variables */
-    uint8_t *exponent;       /* size x variables */
-    size_t *degree;          /* size: |e| */
-    size_t *first;           /* order + 2: the first exponent of each |e| */
-    uint32_t *before;        /* see nh_jet_ring_find */
-    uint32_t *up;            /* variables x size: e + 1_k, or UINT32_MAX */
-    uint32_t *variables_in;  /* size: bit k % 32 for each e_k that is not 0 */
-    size_t *pairs;           /* size + 1: e = left + right are the pairs from pairs[e] to pairs[e + 1] */
+    const size_t *weight;   /* variables */
+    uint8_t *exponent;      /* size x variables */
+    size_t *degree;         /* size: |e| */
+    size_t *first;          /* order + 2: the first exponent of each |e| */
+    uint32_t *before;       /* see nh_jet_ring_find */
+    uint32_t *up;           /* variables x size: e + 1_k, or UINT32_MAX */
+    uint32_t *variables_in; /* size: bit k % 32 for each e_k that is not 0 */
+    size_t *pairs;          /* size + 1: e = left + right are the pairs from pairs[e] to pairs[e + 1] */
     uint32_t *left, *right;
-    nh_residue *inverse;     /* order + 1: of whole numbers */
+    nh_residue *inverse; /* order + 1: of whole numbers */
     nh_arena *arena;
 } nh_jet_ring;
 
@@ -43,7 +43,7 @@ bool nh_jet_is_constant(const nh_jet_ring *ring, const nh_residue *a);
 bool nh_jet_is_zero(const nh_jet_ring *ring, const nh_residue *a);
 void nh_jet_constant(const nh_jet_ring *ring, nh_residue c, nh_residue *out);
 void nh_jet_add_multiple(const nh_jet_ring *ring, nh_residue *sum, nh_residue c, const nh_residue *a); /* sum += c a */
-void nh_jet_scale(const nh_jet_ring *ring, nh_residue *a, nh_residue c);                                /* a *= c */
+void nh_jet_scale(const nh_jet_ring *ring, nh_residue *a, nh_residue c);                               /* a *= c */
 void nh_jet_mul(const nh_jet_ring *ring, const nh_residue *a, const nh_residue *b, nh_residue *out);
 /* sum += a b */
 void nh_jet_add_product(const nh_jet_ring *ring, nh_residue *sum, const nh_residue *a, const nh_residue *b);

@@ -11,10 +11,10 @@
 #include "graph/num.h"
 
 enum {
-    most_angle = 12,     /* sin(12 a) is written as a polynomial in sin(a), cos(a), sin(13 a) is not */
-    most_power = 1000,   /* b^1000 is a power, b^1001 a name */
-    most_order = 64,     /* b^(1/64) is a root, b^(1/65) a name */
-    deepest = 400        /* nesting that the stack surely bears */
+    most_angle = 12,   /* sin(12 a) is written as a polynomial in sin(a), cos(a), sin(13 a) is not */
+    most_power = 1000, /* b^1000 is a power, b^1001 a name */
+    most_order = 64,   /* b^(1/64) is a root, b^(1/65) a name */
+    deepest = 400      /* nesting that the stack surely bears */
 };
 
 /* ---- linear forms ---- */
@@ -201,8 +201,12 @@ static void collect_function(nh_kernels *k, nh_ex e, int depth)
 {
     nh_ex a = nh_arity(k->dag, e) ? nh_child(k->dag, e, 0) : 0;
     switch (nh_function_of(k->dag, e)) {
-    case NH_SIN: case NH_COS: case NH_TAN: note_parts(k, NH_KERNEL_SIN, 0, a); break;
-    case NH_SINH: case NH_COSH: case NH_TANH: note_parts(k, k->literal ? NH_KERNEL_SINH : NH_KERNEL_EXP, 0, a); break;
+    case NH_SIN:
+    case NH_COS:
+    case NH_TAN: note_parts(k, NH_KERNEL_SIN, 0, a); break;
+    case NH_SINH:
+    case NH_COSH:
+    case NH_TANH: note_parts(k, k->literal ? NH_KERNEL_SINH : NH_KERNEL_EXP, 0, a); break;
     case NH_EXP: note_parts(k, NH_KERNEL_EXP, 0, a); break;
     case NH_ABS:
         collect(k, a, depth);

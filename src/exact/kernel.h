@@ -13,18 +13,25 @@
 #include "graph/index.h"
 
 typedef enum {
-    NH_KERNEL_PLAIN, NH_KERNEL_SIN, NH_KERNEL_COS, NH_KERNEL_SINH, NH_KERNEL_COSH, NH_KERNEL_EXP, NH_KERNEL_POWER,
-    NH_KERNEL_ROOT, NH_KERNEL_ABS
+    NH_KERNEL_PLAIN,
+    NH_KERNEL_SIN,
+    NH_KERNEL_COS,
+    NH_KERNEL_SINH,
+    NH_KERNEL_COSH,
+    NH_KERNEL_EXP,
+    NH_KERNEL_POWER,
+    NH_KERNEL_ROOT,
+    NH_KERNEL_ABS
 } nh_kernel_kind;
 
 typedef struct {
     nh_kernel_kind kind;
-    nh_ex base;     /* power: its base; otherwise 0 */
-    nh_ex atom;     /* argument / unit; root: the radicand; plain: the expression itself */
-    nh_num unit;    /* root: 1/order */
+    nh_ex base;  /* power: its base; otherwise 0 */
+    nh_ex atom;  /* argument / unit; root: the radicand; plain: the expression itself */
+    nh_num unit; /* root: 1/order */
     /* a shorter expression that is equal to the plain expression, radicand or argument, for display; 0: none */
     nh_ex shown;
-    size_t length;  /* complexity, for display */
+    size_t length; /* complexity, for display */
     size_t discovered;
     size_t partner; /* the cosine of a sine and vice versa */
 } nh_kernel;
@@ -51,7 +58,7 @@ typedef struct {
 } nh_kernel_use;
 
 typedef struct {
-    nh_dag *dag;     /* borrowed */
+    nh_dag *dag; /* borrowed */
     bool literal;
     /* sin(3 x) without sin(x) beside it is a kernel, and no polynomial of degree 3: for expressions that are compared
      * with no others */
@@ -61,7 +68,7 @@ typedef struct {
     bool too_deep;   /* an expression was nested deeper than the stack bears */
     nh_kernel *item; /* kernels in an order that does not depend on other kernels */
     size_t count, capacity;
-    size_t *order;   /* the kernels in an order in which radicands come before their roots */
+    size_t *order; /* the kernels in an order in which radicands come before their roots */
     nh_kernel_use *use;
     size_t uses, use_capacity;
     nh_index seen, plain;

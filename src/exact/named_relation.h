@@ -14,7 +14,6 @@
 
 #include "graph/expr.h"
 
-
 /* One step: expresses e, a call with canonical arguments, by functions whose orders are nearer to that interval, or by
  * the first of two solutions.  False: there is no step. */
 bool nh_named_relation_step(nh_dag *dag, nh_ex e, nh_ex *out);

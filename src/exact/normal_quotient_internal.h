@@ -29,8 +29,8 @@ typedef struct {
 
 struct nh_quotient_field {
     fmpz_mpoly_ctx_t ctx;
-    slong generators;  /* FLINT needs one at least */
-    size_t declared;   /* the generators that there are */
+    slong generators; /* FLINT needs one at least */
+    size_t declared;  /* the generators that there are */
     nh_relation *relation;
     size_t relations, capacity;
     nh_quotient *all;

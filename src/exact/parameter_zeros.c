@@ -56,7 +56,8 @@ static bool same_variables(const work *w, const nh_pieces *p, const nh_factor *f
 static nh_ex coefficient(work *w, const nh_pieces *p, const nh_factor *f, size_t first)
 {
     size_t n = p->generators;
-    nh_factor part = {.power = 1, .coefficient = nh_arena_alloc(w->arena, (f->terms + 1) * sizeof *part.coefficient),
+    nh_factor part = {.power = 1,
+                      .coefficient = nh_arena_alloc(w->arena, (f->terms + 1) * sizeof *part.coefficient),
                       .exponent = nh_arena_alloc(w->arena, (f->terms * n + 1) * sizeof *part.exponent)};
     int64_t *none = nh_arena_alloc(w->arena, (n + 1) * sizeof *none);
     memset(none, 0, n * sizeof *none);
@@ -144,8 +145,7 @@ static bool of_one_sign(nh_dag *dag, nh_ex e)
     nh_forms_init(&forms, dag, false, most_terms);
     bool good = nh_form_make(&forms, e, true, &form) == NH_FIELD_FINE &&
                 nh_pieces_make(form.field, arena, form.value, false, &pieces);
-    for (size_t g = 0; g < form.kernels.count && good; g++)
-        good = form.kernels.item[g].kind == NH_KERNEL_PLAIN;
+    for (size_t g = 0; g < form.kernels.count && good; g++) good = form.kernels.item[g].kind == NH_KERNEL_PLAIN;
     for (size_t j = 0; good && j < pieces.factors; j++)
         for (size_t i = 1; i < pieces.factor[j].terms && good; i++)
             good = nh_num_value(pieces.factor[j].coefficient[i]) * nh_num_value(pieces.factor[j].coefficient[0]) > 0;

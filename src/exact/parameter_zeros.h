@@ -17,7 +17,7 @@ typedef struct {
 } nh_parameter_zeros_way;
 
 typedef struct {
-    size_t ways;             /* 0: e never vanishes */
+    size_t ways; /* 0: e never vanishes */
     nh_parameter_zeros_way *way;
 } nh_parameter_zeros;
 

@@ -6,7 +6,6 @@
 
 #include "graph/expr.h"
 
-
 /* Expresses the last of n expressions by those before it, which need not be independent: the first ones possible are
  * used.  `parameter`, max_terms: as for nh_relation_find.  False where there is no such relation, or it is too
  * large. */

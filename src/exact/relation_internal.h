@@ -12,7 +12,7 @@ typedef struct {
     const nh_ex *parameter;
     nh_forms forms;
     nh_form form;
-    nh_ex *e; /* with canonical arguments */
+    nh_ex *e;       /* with canonical arguments */
     bool *constant; /* kernel -> does it depend on parameters only? */
     const nh_quotient **value, **c;
     /* sin u = (z - 1/z)/(2 i), cos u = (z + 1/z)/2 with z = exp(i u) for a variable u: sin(u - v) has factors then, and

@@ -81,8 +81,7 @@ static void take_common_factor(nh_quotient_field *f, size_t n, const nh_quotient
 {
     fmpz_mpoly_t g;
     fmpz_mpoly_init(g, f->ctx);
-    for (size_t j = 0; j < n && !fmpz_mpoly_is_one(g, f->ctx); j++)
-        gcd(f, g, g, q[j]->num);
+    for (size_t j = 0; j < n && !fmpz_mpoly_is_one(g, f->ctx); j++) gcd(f, g, g, q[j]->num);
     if (n && fmpz_sgn(q[0]->num->coeffs) < 0) fmpz_mpoly_neg(g, g, f->ctx);
     for (size_t j = 0; j < n && !fmpz_mpoly_is_one(g, f->ctx); j++) {
         nh_quotient *divided = polynomial(f, q[j]->num);

@@ -13,8 +13,8 @@ typedef enum {
     /* unique up to a factor; coefficient[] holds it: polynomials of the parameters without common factor */
     NH_RELATION_UNIQUE,
     NH_RELATION_NONE,
-    NH_RELATION_SEVERAL,   /* the relations form a space of dimension two or more */
-    NH_RELATION_TOO_LARGE  /* more terms than max_terms, or an inexact constant occurs */
+    NH_RELATION_SEVERAL,  /* the relations form a space of dimension two or more */
+    NH_RELATION_TOO_LARGE /* more terms than max_terms, or an inexact constant occurs */
 } nh_relation_verdict;
 
 /* The verdict; when unique, c[j] gets quotients without denominators and without common factor. */

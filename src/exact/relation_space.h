@@ -16,16 +16,16 @@
 typedef struct {
     nh_dag *dag;
     size_t columns, rows;
-    const nh_ex *entry;        /* entry[j * rows + i] */
+    const nh_ex *entry; /* entry[j * rows + i] */
     size_t variables;
-    const nh_ex *variable;     /* all other symbols are constants */
+    const nh_ex *variable; /* all other symbols are constants */
     size_t parameters;
     const nh_ex *parameter;
-    size_t max_terms;          /* largest number of terms of normal forms; 0: their default */
+    size_t max_terms; /* largest number of terms of normal forms; 0: their default */
 } nh_relation_columns;
 
 typedef struct {
-    const char *obstacle;      /* why nothing is known, or NULL */
+    const char *obstacle; /* why nothing is known, or NULL */
     size_t bound, proved;
     /* proved x columns: the last column of each relation has the coefficient 1, and is in no other relation */
     nh_ex *coefficient;

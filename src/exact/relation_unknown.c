@@ -183,9 +183,8 @@ static bool solve_for(problem *p, size_t count, const nh_quotient *const *equati
     for (size_t k = 0; k < s->unknowns; k++) {
         const nh_kernels *kernels = &p->question.form.kernels;
         generator[k] = 0;
-        while (generator[k] < kernels->count
-               && !(kernels->item[generator[k]].kind == NH_KERNEL_PLAIN
-                    && kernels->item[generator[k]].atom == s->unknown[k]))
+        while (generator[k] < kernels->count && !(kernels->item[generator[k]].kind == NH_KERNEL_PLAIN &&
+                                                  kernels->item[generator[k]].atom == s->unknown[k]))
             generator[k]++;
         if (generator[k] == kernels->count) return false;
     }
@@ -204,8 +203,8 @@ static bool ask(problem *p, nh_ex *x)
     bool support[most_columns];
     memset(support, 1, sizeof support);
     nh_relation_rows_init(&p->rows, &p->system);
-    if (nh_relation_rows_choose_point(&p->rows) && nh_relation_rows_rank(&p->rows, support, chosen) == p->n
-        && choose_rows(p, chosen) && nh_relation_solve_rows(&p->rows, chosen, c))
+    if (nh_relation_rows_choose_point(&p->rows) && nh_relation_rows_rank(&p->rows, support, chosen) == p->n &&
+        choose_rows(p, chosen) && nh_relation_solve_rows(&p->rows, chosen, c))
         count = equations(p, chosen, c, equation);
     bool good = count > 0 && solve_for(p, count, equation, x);
     nh_relation_rows_clear(&p->rows);

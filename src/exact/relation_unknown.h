@@ -11,7 +11,6 @@
 
 #include "graph/expr.h"
 
-
 enum { NH_MOST_UNKNOWN = 3 };
 
 typedef struct {

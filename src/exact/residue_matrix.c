@@ -99,8 +99,7 @@ static void apply_pivots(elimination *x, bool above)
     nh_residue factor[panel_width];
     memset(x->part, 0, k * n * sizeof *x->part);
     for (size_t t = 0; t < k; t++) row[t] = x->a + (x->rank + t) * x->columns + x->first;
-    for (size_t i = 0; i < k; i++)
-        nh_row_sum_add(x->field, n, x->part + i * n, k, x->pivots + i * 2 * k + k, row);
+    for (size_t i = 0; i < k; i++) nh_row_sum_add(x->field, n, x->part + i * n, k, x->pivots + i * 2 * k + k, row);
     for (size_t i = 0; i < k; i++)
         memcpy(x->a + (x->rank + i) * x->columns + x->first, x->part + i * n, n * sizeof *x->part);
     for (size_t i = above ? 0 : x->rank + k; i < x->rows; i++) {

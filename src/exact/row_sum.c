@@ -34,15 +34,15 @@ static void add_plain(const row_sum *s, size_t n, nh_residue *y)
             const nh_residue *f = s->factor + t, *a = s->row[t] + from, *b = s->row[t + 1] + from,
                              *c = s->row[t + 2] + from, *d = s->row[t + 3] + from;
             for (size_t j = 0; j < columns; j++) {
-                uint64_t sum = (uint64_t)f[0] * a[j] + (uint64_t)f[1] * b[j] + (uint64_t)f[2] * c[j] +
-                               (uint64_t)f[3] * d[j];
+                uint64_t sum =
+                    (uint64_t)f[0] * a[j] + (uint64_t)f[1] * b[j] + (uint64_t)f[2] * c[j] + (uint64_t)f[3] * d[j];
                 low[j] += sum & UINT32_MAX;
                 high[j] += sum >> 32;
             }
         }
         for (size_t j = 0; j < columns; j++)
-            y[from + j] = nh_residue_reduce(
-                s->field, nh_residue_reduce(s->field, low[j]) + nh_residue_reduce(s->field, high[j]) * s->carry);
+            y[from + j] = nh_residue_reduce(s->field, nh_residue_reduce(s->field, low[j]) +
+                                                          nh_residue_reduce(s->field, high[j]) * s->carry);
     }
 }
 

@@ -10,13 +10,13 @@
 #include "graph/num.h"
 
 enum {
-    most_terms = 1000,    /* largest number of terms of intermediate polynomials */
-    flip_terms = 200,     /* terms of quotients for which elimination of both sin^2 and cos^2 is tried */
-    most_flips = 8,       /* for at most this many angles */
-    factor_terms = 60,    /* see normal_factor.c */
-    shortest = 4,         /* complexity below which an expression is already simple */
-    deepest = 20,         /* nesting of arguments and terms that are simplified by themselves */
-    longest = 3000        /* for the equations of a system: complexity beyond which expressions are not simplified */
+    most_terms = 1000, /* largest number of terms of intermediate polynomials */
+    flip_terms = 200,  /* terms of quotients for which elimination of both sin^2 and cos^2 is tried */
+    most_flips = 8,    /* for at most this many angles */
+    factor_terms = 60, /* see normal_factor.c */
+    shortest = 4,      /* complexity below which an expression is already simple */
+    deepest = 20,      /* nesting of arguments and terms that are simplified by themselves */
+    longest = 3000     /* for the equations of a system: complexity beyond which expressions are not simplified */
 };
 
 /* State that one call shares between the expression and its parts. */
@@ -171,10 +171,7 @@ static bool worth_descending(const nh_dag *dag, nh_ex e)
     return false;
 }
 
-static nh_ex part(contest *c, nh_ex e)
-{
-    return worth_descending(c->dag, e) ? simplify(c->shared, e) : e;
-}
+static nh_ex part(contest *c, nh_ex e) { return worth_descending(c->dag, e) ? simplify(c->shared, e) : e; }
 
 static nh_ex sum_of_parts(contest *c, nh_ex e)
 {

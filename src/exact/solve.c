@@ -10,8 +10,8 @@
 struct nh_lu {
     nh_dag *dag;
     size_t n;
-    nh_ex *a;      /* L below the diagonal (unit), U on and above it */
-    size_t *row;   /* row[i]: which original row came i-th */
+    nh_ex *a;       /* L below the diagonal (unit), U on and above it */
+    size_t *row;    /* row[i]: which original row came i-th */
     size_t longest; /* limit of nh_simplify_short; 0: its own */
 };
 

@@ -7,7 +7,6 @@
 
 #include "graph/expr.h"
 
-
 /* The score of a pivot: how safe it is to divide by e; 0: e vanishes (somewhere, or identically). */
 typedef double nh_pivot_score(void *context, nh_ex e);
 

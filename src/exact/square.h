@@ -4,7 +4,6 @@
 
 #include "graph/expr.h"
 
-
 /* Splits e = outside^2 * inside, where `inside` is a polynomial without square factors, as far as its written factors
  * show.  False: e has roots as factors, or a number that is not a rational of 64 bits. */
 bool nh_square_split(nh_dag *dag, nh_ex e, nh_ex *outside, nh_ex *inside);

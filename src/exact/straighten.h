@@ -10,7 +10,6 @@
 
 #include "graph/expr.h"
 
-
 /* Rewrites the n expressions in place, where at least three sums of symbols are arguments of sines, cosines or
  * exponentials, or stand in denominators; `constants` are not replaced.  False: nothing is changed. */
 bool nh_straighten(nh_dag *dag, size_t n, nh_ex *e, size_t constants, const nh_ex *constant);

@@ -118,19 +118,32 @@ static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
     nh_function f = nh_function_of(d, e);
     w->cutting = f == NH_ATAN2 || f == NH_ATAN || f == NH_ASIN || f == NH_ACOS;
     switch (f) {
-    case NH_ATAN2: put_part(w, last); put_factors(w, d, v, false, 0); break;
-    case NH_ABS: case NH_SIGN: put_factors(w, d, v, false, 0); break;
+    case NH_ATAN2:
+        put_part(w, last);
+        put_factors(w, d, v, false, 0);
+        break;
+    case NH_ABS:
+    case NH_SIGN: put_factors(w, d, v, false, 0); break;
     case NH_ATAN: put_poles(w, d, v, 0); break;
-    case NH_ASIN: case NH_ACOS: put_factors(w, d, nh_sub(d, one, nh_powi(d, v, 2)), false, 0); break;
+    case NH_ASIN:
+    case NH_ACOS: put_factors(w, d, nh_sub(d, one, nh_powi(d, v, 2)), false, 0); break;
     case NH_ACOSH: put_factors(w, d, nh_sub(d, v, one), false, 0); break;
-    case NH_HYPERU: case NH_HYPERU_PRIME: case NH_BESSEL_J: case NH_BESSEL_J_PRIME: case NH_BESSEL_Y:
-    case NH_BESSEL_Y_PRIME: case NH_BESSEL_I: case NH_BESSEL_I_PRIME: case NH_BESSEL_K: case NH_BESSEL_K_PRIME:
-        put_factors(w, d, last, false, 0);
-        break;
-    case NH_LEGENDRE_P: case NH_LEGENDRE_P_PRIME: case NH_LEGENDRE_Q: case NH_LEGENDRE_Q_PRIME:
-        put_factors(w, d, nh_sub(d, one, nh_powi(d, last, 2)), false, 0);
-        break;
-    case NH_HYP2F1: case NH_HYP2F1_PRIME: put_factors(w, d, nh_sub(d, one, last), false, 0); break;
+    case NH_HYPERU:
+    case NH_HYPERU_PRIME:
+    case NH_BESSEL_J:
+    case NH_BESSEL_J_PRIME:
+    case NH_BESSEL_Y:
+    case NH_BESSEL_Y_PRIME:
+    case NH_BESSEL_I:
+    case NH_BESSEL_I_PRIME:
+    case NH_BESSEL_K:
+    case NH_BESSEL_K_PRIME: put_factors(w, d, last, false, 0); break;
+    case NH_LEGENDRE_P:
+    case NH_LEGENDRE_P_PRIME:
+    case NH_LEGENDRE_Q:
+    case NH_LEGENDRE_Q_PRIME: put_factors(w, d, nh_sub(d, one, nh_powi(d, last, 2)), false, 0); break;
+    case NH_HYP2F1:
+    case NH_HYP2F1_PRIME: put_factors(w, d, nh_sub(d, one, last), false, 0); break;
     case NH_ELLIPTIC_F: put_branch(w, d, e); break;
     default: break;
     }

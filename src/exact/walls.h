@@ -16,20 +16,19 @@
 
 #include "graph/expr.h"
 
-
 enum { NH_MOST_WALLS = 40, NH_MOST_WALL_PARTS = 16 };
 
 typedef struct {
     size_t count;
-    nh_ex e[NH_MOST_WALLS];     /* expressions that vanish on a wall; each once */
-    bool edge[NH_MOST_WALLS];   /* the base of a root, and no square: where it changes its sign the root ends */
+    nh_ex e[NH_MOST_WALLS];   /* expressions that vanish on a wall; each once */
+    bool edge[NH_MOST_WALLS]; /* the base of a root, and no square: where it changes its sign the root ends */
     /* wall of atan2, atan, asin or acos alone: on the other side another branch continues the function */
     bool cut[NH_MOST_WALLS];
     /* functions by whose signs a wall has different parts, as x for the cut y = 0 of atan2(y, x) */
     size_t parts;
     nh_ex part[NH_MOST_WALL_PARTS];
-    bool cutting;               /* the walls that are added now are cuts */
-    bool left_out;              /* there are more than the room holds, or in deeper quotients than are looked at */
+    bool cutting;  /* the walls that are added now are cuts */
+    bool left_out; /* there are more than the room holds, or in deeper quotients than are looked at */
 } nh_walls;
 
 /* Adds the walls of e. */

@@ -17,18 +17,18 @@ typedef struct {
     const nh_model *o;
     nh_dag *d;
     size_t N, count, functions;
-    const nh_ex *symbol;       /* N */
-    size_t zeros;              /* symbols that are 0 at the point */
+    const nh_ex *symbol; /* N */
+    size_t zeros;        /* symbols that are 0 at the point */
     const nh_ex *zero;
     /* the components of the fields, then the functions: in canonical form, with the parameters' values */
     nh_ex *e;
     nh_prime field;
     nh_jet_point *point;
     nh_jet_ring *ring;
-    nh_residue *value;         /* of e */
+    nh_residue *value; /* of e */
     /* number of fields that are independent at the point, and the order up to which their series are right */
     size_t kept, *order;
-    nh_residue *frame;         /* N x N series */
+    nh_residue *frame; /* N x N series */
 } space;
 
 static nh_residue *member(const space *x, size_t i) { return x->frame + i * x->N * x->ring->size; }

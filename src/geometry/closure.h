@@ -13,9 +13,9 @@
 enum { NH_MOST_GROWTH = 40 };
 
 typedef struct {
-    const char *obstacle;      /* the reason why there is no result, or NULL */
-    size_t dimension, rank;    /* N = 1 + m + n; lower bound of r */
-    size_t known;              /* lower bound of the number of independent ones among the known functions */
+    const char *obstacle;   /* the reason why there is no result, or NULL */
+    size_t dimension, rank; /* N = 1 + m + n; lower bound of r */
+    size_t known;           /* lower bound of the number of independent ones among the known functions */
 } nh_closure;
 
 /* `count` fields of 1 + m + n components each, on (t, q, w); `functions` that all of them annihilate: once N - r

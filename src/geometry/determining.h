@@ -35,22 +35,22 @@ typedef enum {
 typedef struct {
     nh_ex coefficient;
     nh_determining_operator along;
-    size_t direction;          /* of X and Y */
+    size_t direction; /* of X and Y */
     nh_determining_unknown of;
-    size_t index;              /* of Z, zeta and W */
+    size_t index; /* of Z, zeta and W */
 } nh_determining_term;
 
 typedef struct {
-    int number;                /* 14 to 19 */
-    size_t direction;          /* l; of (14) and (17) none */
+    int number;       /* 14 to 19 */
+    size_t direction; /* l; of (14) and (17) none */
     size_t terms;
     nh_determining_term *term;
 } nh_determining_equation;
 
 typedef struct {
     const nh_model *model;
-    bool by_Z;                 /* in Z^l; else in zeta */
-    size_t count;              /* 2 + 4n */
+    bool by_Z;    /* in Z^l; else in zeta */
+    size_t count; /* 2 + 4n */
     nh_determining_equation *equation;
 } nh_determining;
 

@@ -26,10 +26,10 @@ typedef enum { NH_UNCONSTRAINED, NH_LINEAR, NH_AFFINE, NH_NONLINEAR } nh_constra
 typedef struct {
     nh_constraint_type type;
     bool homogeneous, rheonomic, holonomic;
-    size_t positions;   /* constraints that were given between positions */
-    nh_growth growth;   /* length 0 without constraints */
-    size_t integrals;   /* number of functions of (t, q) that stay constant: dimension minus last rank */
-    size_t hidden;      /* how many of them are not given as constraints between positions */
+    size_t positions; /* constraints that were given between positions */
+    nh_growth growth; /* length 0 without constraints */
+    size_t integrals; /* number of functions of (t, q) that stay constant: dimension minus last rank */
+    size_t hidden;    /* how many of them are not given as constraints between positions */
 } nh_distribution;
 
 /* Fields that span the distribution of virtual displacements (in space and time, where the constraints are affine or

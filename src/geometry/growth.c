@@ -273,8 +273,8 @@ static void look_for_drops(const space *x, size_t generators, const nh_ex *field
                 present = nh_depends(x->d, field[i], zero[count - 1]);
         }
         if (!inside || !present) continue;
-        nh_closure_growth c = nh_closure_growth_at(o, generators, x->N, x->symbol, field, count, zero,
-                                                   g->length + stages_beyond);
+        nh_closure_growth c =
+            nh_closure_growth_at(o, generators, x->N, x->symbol, field, count, zero, g->length + stages_beyond);
         if (!c.obstacle && c.length && c.rank[0] == g->rank[0] && differs(g, &c))
             keep_there(g, &c, s < o->m ? o->system->coordinate[s].q : 0);
     }

@@ -22,13 +22,13 @@ typedef enum { NH_ON_POSITIONS, NH_ON_EVENTS, NH_ON_STATES } nh_growth_space;
 
 typedef struct {
     nh_growth_space space;
-    size_t dimension;                         /* N */
-    size_t length, rank[NH_MOST_GROWTH];      /* generic ranks, strictly increasing */
+    size_t dimension;                    /* N */
+    size_t length, rank[NH_MOST_GROWTH]; /* generic ranks, strictly increasing */
     bool proved, by_numbers;
-    bool cut;                                 /* formulas became too large: the ranks may grow further */
+    bool cut; /* formulas became too large: the ranks may grow further */
     /* at an examined place of the sampling domain the ranks grow differently */
     bool drops;
-    nh_ex where;                              /* the coordinate that vanishes there; 0: all of them vanish */
+    nh_ex where; /* the coordinate that vanishes there; 0: all of them vanish */
     size_t length_there, rank_there[NH_MOST_GROWTH];
 } nh_growth;
 

@@ -76,8 +76,8 @@ nh_linearization *nh_linearization_create(nh_system *system)
 {
     nh_arena *arena = nh_arena_create();
     nh_linearization *l = nh_arena_alloc(arena, sizeof *l);
-    *l = (nh_linearization){.system = system, .dag = system->dag, .arena = arena, .m = system->coordinates,
-                            .k = system->constraints};
+    *l = (nh_linearization){
+        .system = system, .dag = system->dag, .arena = arena, .m = system->coordinates, .k = system->constraints};
     l->q = take(l, l->m), l->v = take(l, l->m), l->a = take(l, l->m), l->mu = take(l, l->k);
     for (size_t i = 0; i < l->m; i++) {
         l->q[i] = system->coordinate[i].q;
@@ -282,8 +282,11 @@ nh_linear_equations *nh_linearization_at(nh_linearization *l, const double *para
 {
     size_t m = l->m;
     nh_linear_equations *e = NULL;
-    nh_linear_work w = {.l = l, .bits = nh_ball_spectrum_bits(2 * m - l->k), .q = _arb_vec_init((slong)m),
-                        .v = _arb_vec_init((slong)m), .a = _arb_vec_init((slong)m),
+    nh_linear_work w = {.l = l,
+                        .bits = nh_ball_spectrum_bits(2 * m - l->k),
+                        .q = _arb_vec_init((slong)m),
+                        .v = _arb_vec_init((slong)m),
+                        .a = _arb_vec_init((slong)m),
                         .dependent = nh_alloc_array(m + l->k + 1, sizeof *w.dependent),
                         .fixed = nh_alloc_array(m + 1, sizeof *w.fixed)};
     arb_mat_struct *const all[] = {w.R, w.S, w.T, w.M, w.C, w.N, w.A};
@@ -309,8 +312,8 @@ nh_linear_equations *nh_linearization_at(nh_linearization *l, const double *para
 void nh_linear_equations_free(nh_linear_equations *e)
 {
     if (!e) return;
-    void *const all[] = {e->velocity, e->position, e->q, e->v, e->a, e->M, e->C, e->N, e->A,
-                         e->R,        e->S,        e->T, e->closed,  e->eigenvalue};
+    void *const all[] = {e->velocity, e->position, e->q, e->v, e->a, e->M,      e->C,
+                         e->N,        e->A,        e->R, e->S, e->T, e->closed, e->eigenvalue};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) nh_free(all[i]);
     nh_free(e);
 }

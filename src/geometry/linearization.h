@@ -42,20 +42,20 @@ typedef struct {
 
 /* Matrices are row by row. */
 typedef struct {
-    size_t m, k, n, s;      /* coordinates, constraints, independent velocities, independent coordinates */
-    size_t *velocity;       /* n: the coordinates whose velocities w are */
-    size_t *position;       /* s: the coordinates x */
-    double t, *q, *v, *a;   /* the state, and its accelerations: m each */
-    double *M, *C, *N;      /* n x n, n x n, n x s */
-    double *A;              /* (s + n) x (s + n), of (x, w); */
-    double *R, *S, *T;      /* m x n, m x m, m x s */
-    double error;           /* largest error of an entry */
-    bool *closed;           /* s + n: is it one of the closed rest? */
-    size_t size;            /* how many are */
-    double residual;        /* the largest rate of one of these; 0 where all vanish */
-    bool moves;             /* a coordinate that is left out moves */
-    bool changes;           /* the closed part of A is another one at other states of the motion */
-    size_t eigenvalues;     /* of the closed part of A; 0 where none were enclosed */
+    size_t m, k, n, s;    /* coordinates, constraints, independent velocities, independent coordinates */
+    size_t *velocity;     /* n: the coordinates whose velocities w are */
+    size_t *position;     /* s: the coordinates x */
+    double t, *q, *v, *a; /* the state, and its accelerations: m each */
+    double *M, *C, *N;    /* n x n, n x n, n x s */
+    double *A;            /* (s + n) x (s + n), of (x, w); */
+    double *R, *S, *T;    /* m x n, m x m, m x s */
+    double error;         /* largest error of an entry */
+    bool *closed;         /* s + n: is it one of the closed rest? */
+    size_t size;          /* how many are */
+    double residual;      /* the largest rate of one of these; 0 where all vanish */
+    bool moves;           /* a coordinate that is left out moves */
+    bool changes;         /* the closed part of A is another one at other states of the motion */
+    size_t eigenvalues;   /* of the closed part of A; 0 where none were enclosed */
     nh_eigenvalue *eigenvalue;
 } nh_linear_equations;
 

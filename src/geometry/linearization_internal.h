@@ -11,13 +11,13 @@ struct nh_linearization {
     nh_system *system;
     nh_dag *dag;
     nh_arena *arena;
-    size_t m, k, p;             /* p: constraints between positions */
-    nh_ex *q, *v, *a, *mu;      /* symbols */
-    nh_ex *K, *h, *F, *g, *f;   /* m x m, m, k x m, k, k */
-    nh_ex *P, *P_q;             /* p; p x m */
-    nh_ex *B;                   /* k x m: df/dq */
-    nh_ex *d_q, *d_v;           /* m x m: derivatives of K a + h + F^T mu */
-    nh_ex *c_q, *c_v;           /* k x m: derivatives of F a + g */
+    size_t m, k, p;           /* p: constraints between positions */
+    nh_ex *q, *v, *a, *mu;    /* symbols */
+    nh_ex *K, *h, *F, *g, *f; /* m x m, m, k x m, k, k */
+    nh_ex *P, *P_q;           /* p; p x m */
+    nh_ex *B;                 /* k x m: df/dq */
+    nh_ex *d_q, *d_v;         /* m x m: derivatives of K a + h + F^T mu */
+    nh_ex *c_q, *c_v;         /* k x m: derivatives of F a + g */
     size_t walls;
     nh_ex *wall;
 };
@@ -27,12 +27,12 @@ typedef struct {
     const nh_linearization *l;
     nh_ball *ball;
     long bits;
-    arb_t begin, t;         /* the time of the state, and of one beside it */
-    arb_ptr q, v, a;        /* m each: the state, as mid-points, and its accelerations */
+    arb_t begin, t;  /* the time of the state, and of one beside it */
+    arb_ptr q, v, a; /* m each: the state, as mid-points, and its accelerations */
     size_t n, s;
-    bool chosen;            /* are these chosen?  At other states they stay */
-    size_t *dependent;      /* k coordinates; those of w behind them, n */
-    size_t *fixed;          /* m - s coordinates; those of x behind them, s */
+    bool chosen;       /* are these chosen?  At other states they stay */
+    size_t *dependent; /* k coordinates; those of w behind them, n */
+    size_t *fixed;     /* m - s coordinates; those of x behind them, s */
     arb_mat_t R, S, T, M, C, N, A;
 } nh_linear_work;
 

@@ -136,12 +136,15 @@ static bool undetermined(nh_linear_work *w, const arb_mat_t K, const arb_mat_t F
         if (moves) nh_text_addf(&names, "%s%s'", names.length ? ", " : "", c[j].name);
     }
     if (rank < m) {
-        nh_fail(error, NH_NUMERIC, "", "the accelerations are not determined at this state: a motion in %s alone has "
-                "no inertia there", nh_text_string(&names));
+        nh_fail(error, NH_NUMERIC, "",
+                "the accelerations are not determined at this state: a motion in %s alone has "
+                "no inertia there",
+                nh_text_string(&names));
         nh_error_hint(error, "coordinates are singular there, as Euler's angles may be: take a state beside it, or "
-                      "other coordinates");
+                             "other coordinates");
     } else {
-        nh_fail(error, NH_NUMERIC, "", "the accelerations and multipliers are not determined at this state: the "
+        nh_fail(error, NH_NUMERIC, "",
+                "the accelerations and multipliers are not determined at this state: the "
                 "constraints depend on each other there");
         nh_error_hint(error, "take a state beside it");
     }
@@ -190,8 +193,7 @@ static void expand(const nh_linear_work *w, const arb_mat_t E, size_t from, arb_
     size_t m = w->l->m, k = w->l->k;
     remake(out, m, m);
     for (size_t r = 0; r < k; r++)
-        for (size_t j = 0; j < m; j++)
-            arb_neg(arb_mat_entry(out, w->dependent[r], j), arb_mat_entry(E, r, from + j));
+        for (size_t j = 0; j < m; j++) arb_neg(arb_mat_entry(out, w->dependent[r], j), arb_mat_entry(E, r, from + j));
 }
 
 /* R, S and, with the blocks of derivatives, E and H: from the rows [F | B | c_q | c_v] solved for the dependent
@@ -220,8 +222,7 @@ static bool velocities(nh_linear_work *w, const arb_mat_t F, const arb_mat_t B, 
         for (size_t i = 0; i < w->n; i++) {
             size_t j = w->dependent[k + i];
             arb_one(arb_mat_entry(w->R, j, i));
-            for (size_t r = 0; r < k; r++)
-                arb_neg(arb_mat_entry(w->R, w->dependent[r], i), arb_mat_entry(rows, r, j));
+            for (size_t r = 0; r < k; r++) arb_neg(arb_mat_entry(w->R, w->dependent[r], i), arb_mat_entry(rows, r, j));
         }
         expand(w, rows, m, w->S);
         expand(w, rows, 3 * m, part);
@@ -253,8 +254,7 @@ static size_t constants(const nh_linear_work *w, const arb_mat_t F, const arb_ma
     remake(out, p + count, m);
     put(out, 0, 0, P_q);
     for (size_t r = 0; r < count; r++)
-        for (size_t j = 0; j < m; j++)
-            arb_set(arb_mat_entry(out, p + r, j), arb_mat_entry(rows, rank + r, m + j));
+        for (size_t j = 0; j < m; j++) arb_set(arb_mat_entry(out, p + r, j), arb_mat_entry(rows, rank + r, m + j));
     arb_mat_clear(rows);
     nh_free(order);
     return count;

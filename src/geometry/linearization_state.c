@@ -24,7 +24,7 @@ void nh_linear_order(const nh_linearization *l, const bool *last, size_t *order)
 {
     const nh_system *y = l->system;
     size_t count = 0, classes = 4;
-    for (size_t class = 0; class < classes; class++)
+    for (size_t class = 0; class < classes; class ++)
         for (size_t i = 0; i < l->m; i++) {
             bool named = false;
             for (size_t j = 0; j < y->dependents; j++) named |= y->dependent[j] == i;
@@ -265,7 +265,8 @@ static bool smooth(nh_linear_work *w, nh_error *error)
         good = !nh_ball_eval(w->ball, w->l->wall[i], value) || !nh_linear_vanishes(value, 1);
     arb_clear(value);
     if (good) return true;
-    nh_fail(error, NH_NUMERIC, "", "the equations of motion have a kink or a jump at this state: there are no linear "
+    nh_fail(error, NH_NUMERIC, "",
+            "the equations of motion have a kink or a jump at this state: there are no linear "
             "equations");
     return nh_error_hint(error, "abs(x), sign(x) and sqrt(x) are not smooth at x = 0: take a state beside it");
 }

@@ -124,7 +124,7 @@ double nh_model_number(const nh_model *o, nh_ex e)
  * X_0 by one more accumulation (tau). */
 typedef struct {
     bool large;
-    nh_ex *dq, *dv; /* m: dL/dq^s, dL/dv^s */
+    nh_ex *dq, *dv;  /* m: dL/dq^s, dL/dv^s */
     nh_ex *inertial; /* m: dL/dq^s - X_0(p_s) for bodies and joints; otherwise NULL */
     nh_ex tau;
 } slopes;

@@ -37,21 +37,21 @@ typedef struct {
     nh_chart *chart;
     nh_dag *dag;
     nh_arena *arena;
-    size_t m, n, k;         /* coordinates, independent velocities, constraints */
-    nh_ex *rho, *R;         /* m velocities; m x n, R[s*n + i] = d rho^s/dw^i */
-    nh_ex *p, E, Lbar;      /* m momenta; energy; constrained Lagrangian */
+    size_t m, n, k;    /* coordinates, independent velocities, constraints */
+    nh_ex *rho, *R;    /* m velocities; m x n, R[s*n + i] = d rho^s/dw^i */
+    nh_ex *p, E, Lbar; /* m momenta; energy; constrained Lagrangian */
     /* rates, slopes and momenta along the frame (model_internal.h); those of the coordinates where there is none */
     bool framed;
     nh_ex *frame_rho, *frame_R, *frame_p;
-    nh_ex *pbar;            /* n: p_s R^s_i, so that alpha(Z) = Lbar Z^0 + pbar_i zeta^i */
-    nh_ex *M, *A;           /* mass matrix, n x n (row-major); forces, n: M w' = A */
-    nh_ex *G;               /* n x n; call nh_model_G */
-    nh_ex *a;               /* n: w' */
-    nh_ex *mu;              /* k multipliers, of f^a = lhs - rhs as the user wrote them */
-    nh_ex *nu;              /* k x m: df^a/dv^s composed; annihilates R */
-    nh_ex *reaction;        /* m: generalized force of the constraints on the bodies, -c_s */
+    nh_ex *pbar;     /* n: p_s R^s_i, so that alpha(Z) = Lbar Z^0 + pbar_i zeta^i */
+    nh_ex *M, *A;    /* mass matrix, n x n (row-major); forces, n: M w' = A */
+    nh_ex *G;        /* n x n; call nh_model_G */
+    nh_ex *a;        /* n: w' */
+    nh_ex *mu;       /* k multipliers, of f^a = lhs - rhs as the user wrote them */
+    nh_ex *nu;       /* k x m: df^a/dv^s composed; annihilates R */
+    nh_ex *reaction; /* m: generalized force of the constraints on the bodies, -c_s */
     nh_lu *M_lu;
-    size_t pairs;           /* of roots in the Lagrangian */
+    size_t pairs; /* of roots in the Lagrangian */
     const nh_paired_root *pair;
     size_t width;           /* chart->width; points are (t, q, w, u) */
     const nh_ex *parameter; /* system->parameters symbols and values */

@@ -24,8 +24,8 @@
 /* The mass matrix at those probes where it is finite. */
 typedef struct {
     size_t n, count;
-    double *M;           /* count x n x n */
-    const double **at;   /* the probes */
+    double *M;         /* count x n x n */
+    const double **at; /* the probes */
 } masses;
 
 static void masses_clear(masses *a)

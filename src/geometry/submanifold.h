@@ -19,17 +19,17 @@
 
 typedef struct {
     const nh_model *model;
-    bool normal;         /* a chart of coordinate velocities, with constraints: g, Lbar_a and eps' are there */
-    nh_ex *form;         /* k x (1 + m): phi^a = form_0 dt + form_s dq^s */
-    nh_ex *across;       /* k x m: fields V_a with phi^b(V_a) = delta */
-    nh_ex *slope;        /* k x n: g^a_l */
-    nh_ex *turn;         /* k x n: eps'_l(g^a) */
-    nh_ex *bend;         /* k x n x n: g^a_ls */
-    nh_ex *force;        /* n: eps'_l(Lbar) */
-    nh_ex *inertia;      /* n x n: Y_s(pbar_l) */
-    nh_ex *inverse;      /* n x n: the inverse of Bbar = -M */
+    bool normal;            /* a chart of coordinate velocities, with constraints: g, Lbar_a and eps' are there */
+    nh_ex *form;            /* k x (1 + m): phi^a = form_0 dt + form_s dq^s */
+    nh_ex *across;          /* k x m: fields V_a with phi^b(V_a) = delta */
+    nh_ex *slope;           /* k x n: g^a_l */
+    nh_ex *turn;            /* k x n: eps'_l(g^a) */
+    nh_ex *bend;            /* k x n x n: g^a_ls */
+    nh_ex *force;           /* n: eps'_l(Lbar) */
+    nh_ex *inertia;         /* n x n: Y_s(pbar_l) */
+    nh_ex *inverse;         /* n x n: the inverse of Bbar = -M */
     nh_ex *free_A, *free_B; /* m; m x m: A_s and B_sr in all velocities */
-    nh_ex *f_v;          /* k x m: df^a/dv^s of the constraints as they were written, in all velocities */
+    nh_ex *f_v;             /* k x m: df^a/dv^s of the constraints as they were written, in all velocities */
 } nh_submanifold;
 
 /* All of them, in the arena.  `dependent`: the k coordinates whose velocities normalise the forms; NULL: those of the

@@ -42,8 +42,7 @@ nh_dag *nh_dag_copy(const nh_dag *dag)
     c->name = copied(dag->name, c->name_capacity = dag->name_count, sizeof *c->name);
     c->memo = copied(dag->memo, dag->memo_capacity, sizeof *c->memo);
     for (int part = 0; part < 2; part++)
-        c->simplified[part] =
-            copied(dag->simplified[part], dag->simplified_capacity[part], sizeof **c->simplified);
+        c->simplified[part] = copied(dag->simplified[part], dag->simplified_capacity[part], sizeof **c->simplified);
     c->rule = copied(dag->rule, c->rule_capacity = dag->rule_count, sizeof *c->rule);
     c->power = copied(dag->power, c->power_capacity = dag->power_count, sizeof *c->power);
     c->declared = copied(dag->declared, c->declared_capacity = dag->declared_count, sizeof *c->declared);
@@ -116,8 +115,8 @@ nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const
     uint64_t hash = hash_of(kind, op, count, arg);
     for (uint32_t i = dag->bucket[hash & (dag->bucket_count - 1)]; i; i = dag->all.node[i - 1].next) {
         const nh_node *n = &dag->all.node[i - 1];
-        if (n->hash == hash && n->kind == kind && n->op == op && n->count == count
-            && (count == 0 || !memcmp(dag->all.arg + n->first, arg, count * sizeof *arg)))
+        if (n->hash == hash && n->kind == kind && n->op == op && n->count == count &&
+            (count == 0 || !memcmp(dag->all.arg + n->first, arg, count * sizeof *arg)))
             return i - 1;
     }
     /* the graph is full */
@@ -127,8 +126,11 @@ nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const
     nh_grow(&dag->all.arg, &dag->arg_capacity, dag->arg_count + count, sizeof *dag->all.arg);
     uint32_t self = (uint32_t)dag->node_count++;
     nh_node *n = &dag->all.node[self];
-    *n = (nh_node){.kind = (uint8_t)kind, .op = (uint8_t)op, .count = (uint32_t)count,
-                   .first = (uint32_t)dag->arg_count, .hash = hash};
+    *n = (nh_node){.kind = (uint8_t)kind,
+                   .op = (uint8_t)op,
+                   .count = (uint32_t)count,
+                   .first = (uint32_t)dag->arg_count,
+                   .hash = hash};
     if (count) memcpy(dag->all.arg + dag->arg_count, arg, count * sizeof *arg);
     dag->arg_count += count;
     /* Children of numbers and symbols are table indices, not nodes. */

@@ -96,8 +96,9 @@ static nh_ex substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root, int64
             nh_ex b = nh_child(dag, x, j), y = nh_exponent_of(dag, x, j);
             nh_num power = dag->all.node[y].kind == NH_NUMBER ? nh_number_of(dag, y) : nh_num_int(1);
             bool rooted = b == base && power.q % 2 == 0 && power.q <= most_order;
-            product = nh_mul(dag, product, rooted ? nh_pow(dag, root, nh_ratio(dag, power.p, power.q / 2))
-                                                  : nh_pow(dag, image[b], image[y]));
+            product = nh_mul(dag, product,
+                             rooted ? nh_pow(dag, root, nh_ratio(dag, power.p, power.q / 2))
+                                    : nh_pow(dag, image[b], image[y]));
         }
         image[x] = product;
     }

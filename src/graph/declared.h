@@ -10,7 +10,6 @@
 
 #include "graph/expr.h"
 
-
 enum { NH_DECLARED_PRIMES = 8 }; /* the highest derivative that can be written */
 
 /* Declares a function; its number counts from 0.  The name is copied. */

@@ -7,7 +7,6 @@
 
 #include "graph/expr.h"
 
-
 /* d e / d x for a symbol x. */
 nh_ex nh_diff(nh_dag *dag, nh_ex e, nh_ex x);
 

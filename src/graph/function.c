@@ -10,7 +10,7 @@
 #include "graph/dag_internal.h"
 
 #define NAMED(f, name, arity, arguments) [NH_##f] = {name, arity, 0, -1, -1, NULL, arguments}
-#define PAIR(f, name, arity, arguments) \
+#define PAIR(f, name, arity, arguments)                                                                                \
     NAMED(f, name, arity, arguments), NAMED(f##_PRIME, name "_prime", arity, arguments)
 
 #define X(id, name, parity, at_zero, at_one) [NH_##id] = {#name, 1, parity, at_zero, at_one, name},

@@ -7,20 +7,20 @@
 /* Elementary functions of one argument, which have the names of the C library: identifier, name, parity (-1 odd, 1
  * even, 0 neither), values at 0 and at 1 where these are whole numbers (-1: no such rule).  Their evaluation at a point
  * and in a batch, their declarations in machine code and the lists in messages are made from these rows. */
-#define NH_ELEMENTARY_TABLE(X)   \
-    X(SIN, sin, -1, 0, -1)       \
-    X(COS, cos, 1, 1, -1)        \
-    X(TAN, tan, -1, 0, -1)       \
-    X(ASIN, asin, -1, 0, -1)     \
-    X(ACOS, acos, 0, -1, 0)      \
-    X(ATAN, atan, -1, 0, -1)     \
-    X(SINH, sinh, -1, 0, -1)     \
-    X(COSH, cosh, 1, 1, -1)      \
-    X(TANH, tanh, -1, 0, -1)     \
-    X(ASINH, asinh, -1, 0, -1)   \
-    X(ACOSH, acosh, 0, -1, 0)    \
-    X(ATANH, atanh, -1, 0, -1)   \
-    X(EXP, exp, 0, 1, -1)        \
+#define NH_ELEMENTARY_TABLE(X)                                                                                         \
+    X(SIN, sin, -1, 0, -1)                                                                                             \
+    X(COS, cos, 1, 1, -1)                                                                                              \
+    X(TAN, tan, -1, 0, -1)                                                                                             \
+    X(ASIN, asin, -1, 0, -1)                                                                                           \
+    X(ACOS, acos, 0, -1, 0)                                                                                            \
+    X(ATAN, atan, -1, 0, -1)                                                                                           \
+    X(SINH, sinh, -1, 0, -1)                                                                                           \
+    X(COSH, cosh, 1, 1, -1)                                                                                            \
+    X(TANH, tanh, -1, 0, -1)                                                                                           \
+    X(ASINH, asinh, -1, 0, -1)                                                                                         \
+    X(ACOSH, acosh, 0, -1, 0)                                                                                          \
+    X(ATANH, atanh, -1, 0, -1)                                                                                         \
+    X(EXP, exp, 0, 1, -1)                                                                                              \
     X(LOG, log, 0, -1, 0)
 /* "sin cos ... log " */
 #define NH_ELEMENTARY_WORD(id, name, parity, at_zero, at_one) #name " "

@@ -15,8 +15,8 @@ typedef struct {
 
 typedef struct {
     nh_dag *dag;
-    bool *needed;       /* on the way from e to a symbol */
-    size_t *first;      /* per node: index of the first part of its adjoint, + 1 */
+    bool *needed;  /* on the way from e to a symbol */
+    size_t *first; /* per node: index of the first part of its adjoint, + 1 */
     share *list;
     size_t count, capacity;
 } sweep;

@@ -4,7 +4,6 @@
 
 #include "graph/expr.h"
 
-
 typedef struct {
     uint64_t *slot; /* (key + 1) << 32 | value; 0 when free */
     size_t count, capacity;

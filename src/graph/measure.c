@@ -68,7 +68,7 @@ static size_t product_length(const nh_dag *dag, nh_ex e, nh_index *known)
         else above++;
         length = plus(length, factor_length(dag, nh_child(dag, e, i), x, known));
     }
-    if (!above) length = plus(length, above = 1); /* 1/... */
+    if (!above) length = plus(length, above = 1);         /* 1/... */
     return plus(length, above + below - 1 + (below > 1)); /* operators; a denominator in parentheses */
 }
 
@@ -274,8 +274,7 @@ bool nh_is_entire(const nh_dag *dag, nh_ex e, size_t symbols, const nh_ex *symbo
             nh_ex base = nh_child(dag, node[i], j), power = nh_exponent_of(dag, node[i], j);
             bool whole = nh_kind_of(dag, power) == NH_NUMBER && nh_number_of(dag, power).q == 1 &&
                          nh_number_of(dag, power).p > 0;
-            bool constant =
-                !depends_on_any(dag, base, symbols, symbol) && !depends_on_any(dag, power, symbols, symbol);
+            bool constant = !depends_on_any(dag, base, symbols, symbol) && !depends_on_any(dag, power, symbols, symbol);
             good = whole || constant;
         }
     return good;

@@ -4,7 +4,6 @@
 
 #include "graph/expr.h"
 
-
 /* The printed length of e: about the number of symbols, numbers and operators. */
 size_t nh_complexity(const nh_dag *dag, nh_ex e);
 

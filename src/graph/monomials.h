@@ -4,7 +4,6 @@
 
 #include "graph/expr.h"
 
-
 typedef struct {
     size_t symbols, count;
     unsigned char *exponent; /* count x symbols */

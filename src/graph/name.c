@@ -56,10 +56,9 @@ const char *nh_name_of_letter(const char *at, size_t *length)
 static const char *latex_letter(const char *at, size_t *length)
 {
     static const char *const names[] = {
-        "alpha", "beta",  "gamma", "delta", "epsilon", "zeta",  "eta",   "theta", "iota", "kappa",
-        "lambda", "mu",   "nu",    "xi",    "pi",      "rho",   "sigma", "tau",   "upsilon", "phi",
-        "chi",   "psi",   "omega", "Gamma", "Delta",   "Theta", "Lambda", "Xi",   "Pi",   "Sigma",
-        "Phi",   "Psi",   "Omega"};
+        "alpha", "beta",  "gamma", "delta", "epsilon", "zeta",  "eta", "theta",   "iota", "kappa", "lambda",
+        "mu",    "nu",    "xi",    "pi",    "rho",     "sigma", "tau", "upsilon", "phi",  "chi",   "psi",
+        "omega", "Gamma", "Delta", "Theta", "Lambda",  "Xi",    "Pi",  "Sigma",   "Phi",  "Psi",   "Omega"};
     if (*at != '\\') return NULL;
     size_t variant = !strncmp(at, "\\var", 4) ? 3 : 0, n = 0;
     const char *word = at + 1 + variant;

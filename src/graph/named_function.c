@@ -19,7 +19,7 @@ static const struct {
     {NH_LEGENDRE_Q, "(2*x*g - n*(n + 1)*f)/(1 - x^2)"},
     {NH_HYP2F1, "(a*b*f - (c - (a + b + 1)*x)*g)/(x*(1 - x))"},
     {NH_GAUSS_F, "(p*f - (c - (s + 1)*x)*g)/(x*(1 - x))"}, /* s = a + b, p = a b */
-    {NH_RIEMANN_C, "(a + b*x + c*x^2)*f/(1 + x^2)^2"}, /* 15.11.1 with the singular points i, -i and infinity */
+    {NH_RIEMANN_C, "(a + b*x + c*x^2)*f/(1 + x^2)^2"},     /* 15.11.1 with the singular points i, -i and infinity */
     {NH_RIEMANN_S, "(a + b*x + c*x^2)*f/(1 + x^2)^2"},
     {NH_HYP1F1, "(a*f - (b - x)*g)/x"},
     {NH_HYPERU, "(a*f - (b - x)*g)/x"},
@@ -49,8 +49,7 @@ static const struct {
      "(elliptic_einc(u, m) + (m - n)/n*elliptic_f(u, m) + (n^2 - m)/n*f - n*sqrt(1 - m*sin(u)^2)*sin(2*u)/(2*(1 - "
      "n*sin(u)^2)))/(2*(m - n)*(n - 1))"},
     {NH_ELLIPTIC_PI, 1, "1/((1 - n*sin(u)^2)*sqrt(1 - m*sin(u)^2))"},
-    {NH_ELLIPTIC_PI, 2,
-     "(elliptic_einc(u, m)/(m - 1) + f - m*sin(2*u)/(2*(m - 1)*sqrt(1 - m*sin(u)^2)))/(2*(n - m))"},
+    {NH_ELLIPTIC_PI, 2, "(elliptic_einc(u, m)/(m - 1) + f - m*sin(2*u)/(2*(m - 1)*sqrt(1 - m*sin(u)^2)))/(2*(n - m))"},
 };
 
 bool nh_named_function_has_elliptic(const nh_dag *dag, nh_ex e)

@@ -11,7 +11,6 @@
 
 #include "graph/function.h"
 
-
 /* The derivative of the named function e with respect to its argument i; not-a-number where it has no closed form. */
 nh_ex nh_named_function_rate(nh_dag *dag, nh_ex e, size_t i);
 

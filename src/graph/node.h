@@ -8,16 +8,16 @@
 
 /* The nodes of a graph, for the functions below, which are called so often that they are inline. */
 typedef struct {
-    uint8_t kind, op; /* op: the function */
+    uint8_t kind, op;      /* op: the function */
     uint32_t count, first; /* arguments: arg[first .. first+count-1] */
-    uint32_t next;    /* hash chain: index + 1 */
+    uint32_t next;         /* hash chain: index + 1 */
     uint64_t hash, mask;
 } nh_node;
 
 typedef struct {
     nh_node *node;
     uint32_t *arg; /* sums: constant, term, coefficient, ...; products: coefficient, base, exponent, ... */
-} nh_dag_nodes; /* a graph begins with it */
+} nh_dag_nodes;    /* a graph begins with it */
 
 static inline const nh_node *nh_node_of(const nh_dag *dag, nh_ex e) { return ((const nh_dag_nodes *)dag)->node + e; }
 
@@ -53,10 +53,7 @@ static inline size_t nh_arity(const nh_dag *dag, nh_ex e)
 }
 
 /* The constant of a sum, the coefficient of a product. */
-static inline nh_num nh_constant_of(const nh_dag *dag, nh_ex e)
-{
-    return nh_number_of(dag, nh_argument_of(dag, e, 0));
-}
+static inline nh_num nh_constant_of(const nh_dag *dag, nh_ex e) { return nh_number_of(dag, nh_argument_of(dag, e, 0)); }
 
 /* Term, base of a factor, or argument. */
 static inline nh_ex nh_child(const nh_dag *dag, nh_ex e, size_t i)
@@ -71,10 +68,7 @@ static inline nh_num nh_coefficient_of(const nh_dag *dag, nh_ex e, size_t i)
 }
 
 /* Of the i-th factor of a product. */
-static inline nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i)
-{
-    return nh_argument_of(dag, e, 2 + 2 * i);
-}
+static inline nh_ex nh_exponent_of(const nh_dag *dag, nh_ex e, size_t i) { return nh_argument_of(dag, e, 2 + 2 * i); }
 
 /* Declares a list of expressions, `nh_ex *name`, which is freed where its scope ends.  It is empty, and as long as what
  * the functions below put into it. */

@@ -195,8 +195,8 @@ enum { most_bits = 4096, most_kept = 1 << 20 };
 static struct {
     pthread_mutex_t lock;
     size_t count, capacity, slots;
-    mpq_t *value;    /* `count` numbers; indices begin at 1 */
-    size_t *slot;    /* open addressing, a power of two; 0: free */
+    mpq_t *value; /* `count` numbers; indices begin at 1 */
+    size_t *slot; /* open addressing, a power of two; 0: free */
 } table = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 static void clear_table(void)

@@ -105,7 +105,7 @@ static bool number(parser *p, nh_ex *out)
     if (value == 0 && length) return nh_parse_fail(p, p->at, "this number is too small: it would become 0");
     p->at = (size_t)(s - p->text);
     bool moderate = exponent > -1000 && exponent < 1000; /* so that the sum below cannot overflow */
-    bool printed = length >= 16 && length <= 17; /* from some double, as far as one can tell */
+    bool printed = length >= 16 && length <= 17;         /* from some double, as far as one can tell */
     if (length == 0) {
         *out = nh_int(p->dag, 0);
     } else if (exact && moderate && labs(exponent + scale) <= (printed ? max_printed_power : max_power)) {
@@ -245,8 +245,8 @@ static bool ambiguous_quotient(parser *p, const quotient *q)
 {
     char whole[128];
     size_t begin = q->begin + strspn(p->text + q->begin, blanks), next = p->at;
-    size_t to = next + (p->text[next] == '(' ? strcspn(p->text + next, ")") + 1
-                                             : strcspn(p->text + next, " \t\r\n+-*/^(),=;"));
+    size_t to =
+        next + (p->text[next] == '(' ? strcspn(p->text + next, ")") + 1 : strcspn(p->text + next, " \t\r\n+-*/^(),=;"));
     snprintf(whole, sizeof whole, "(%.*s*%.*s)", (int)(q->end - begin), p->text + begin, (int)(to - next),
              p->text + next);
     nh_parse_fail(p, next, "this product after a quotient can be read in two ways");

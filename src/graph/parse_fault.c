@@ -100,8 +100,8 @@ static bool hint_closed(parser *p, char open)
     size_t begin = p->at, end = begin + 1 + strcspn(p->text + begin + 1, open == '[' ? "]" : "|");
     char text[100];
     if (!p->text[end]) return false;
-    int n = snprintf(text, sizeof text, "%s(%.*s)", open == '[' ? "" : "abs", (int)(end - begin - 1),
-                     p->text + begin + 1);
+    int n =
+        snprintf(text, sizeof text, "%s(%.*s)", open == '[' ? "" : "abs", (int)(end - begin - 1), p->text + begin + 1);
     return n < (int)sizeof text && nh_parse_propose(p, begin, end + 1, text);
 }
 

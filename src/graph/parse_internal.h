@@ -10,7 +10,7 @@ typedef struct {
     nh_dag *dag;
     const char *text;
     size_t at;
-    size_t number_end; /* where the last factor ended, if it was a number without a power; else SIZE_MAX */
+    size_t number_end;           /* where the last factor ended, if it was a number without a power; else SIZE_MAX */
     size_t bare_begin, bare_end; /* the argument of the last call without parentheses: sin x */
     int depth;
     bool equation; /* parsing "lhs = rhs" */

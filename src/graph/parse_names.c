@@ -310,8 +310,10 @@ static bool unresolved(parser *p, const char *word, size_t at)
     if (unknown && (propose_prime_behind(p, at) || propose_factors(p, word, at))) return false;
     if (near) return nh_parse_hint(p, "did you mean `%s`?", near);
     if (!unknown || !called || !strncmp(fault->hint, "did you mean", strlen("did you mean"))) return false;
-    return nh_parse_hint(p, "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs, those of `nhsym explain "
-                            "functions`, and those that a system declares: functions: [\"%.40s(x)\"]", word);
+    return nh_parse_hint(p,
+                         "the functions are: " NH_ELEMENTARY_WORDS "atan2 sqrt abs, those of `nhsym explain "
+                         "functions`, and those that a system declares: functions: [\"%.40s(x)\"]",
+                         word);
 }
 
 /* Does a parenthesis with a single name stand here, where blanks are passed over: (x)?  *end: behind it. */
@@ -367,8 +369,7 @@ bool nh_parse_name(parser *p, nh_ex *out)
     size_t declared, start = p->at;
     char word[NH_PARSE_NAME + 3];
     p->at += nh_name_spelled(p->text + start, word, NH_PARSE_NAME + 2);
-    if (strlen(word) > NH_PARSE_NAME)
-        return nh_parse_fail(p, start, "a name longer than %d characters", NH_PARSE_NAME);
+    if (strlen(word) > NH_PARSE_NAME) return nh_parse_fail(p, start, "a name longer than %d characters", NH_PARSE_NAME);
     nh_function f = NH_SIN;
     if (nh_declared_find(p->dag, word, &declared)) return declared_call(p, word, declared, out);
     bool root = !strcmp(word, "sqrt");

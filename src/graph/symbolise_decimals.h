@@ -4,16 +4,15 @@
 
 #include "graph/expr.h"
 
-
 enum { NH_MOST_LIFTED = 4 };
 
 typedef struct {
     size_t count;
-    double value[NH_MOST_LIFTED]; /* positive; a negative number becomes the negative of the symbol */
+    double value[NH_MOST_LIFTED];  /* positive; a negative number becomes the negative of the symbol */
     bool exponent[NH_MOST_LIFTED]; /* it is the exponent of a power; otherwise a factor or a constant */
-    nh_ex exact[NH_MOST_LIFTED];  /* the same number */
+    nh_ex exact[NH_MOST_LIFTED];   /* the same number */
     nh_ex symbol[NH_MOST_LIFTED];
-    bool overflow;                /* there were more numbers than room */
+    bool overflow; /* there were more numbers than room */
 } nh_lifted;
 
 /* e with every inexact number (constant, coefficient, exponent) replaced by its symbol in the table, which grows. */

@@ -5,11 +5,10 @@
 
 #include "graph/expr.h"
 
-
 typedef struct {
-    nh_ex e;       /* term of a sum, base of a product */
-    nh_num c;      /* coefficient (sums) */
-    nh_ex x;       /* exponent (products) */
+    nh_ex e;  /* term of a sum, base of a product */
+    nh_num c; /* coefficient (sums) */
+    nh_ex x;  /* exponent (products) */
 } nh_term_list_item;
 
 /* The caller frees list. */

@@ -4,7 +4,6 @@
 
 #include "graph/expr.h"
 
-
 /* Writes the expression itself, then its terms: those of a sum, also under a common factor.  Returns their number; the
  * caller frees *out. */
 size_t nh_terms_of(nh_dag *dag, nh_ex e, nh_ex **out);

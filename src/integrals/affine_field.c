@@ -345,8 +345,7 @@ bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh
     bool sampled = o->n > 0 && sample(o, phi, options, NULL, points, words, word, value, row),
          good = sampled && fit(o, points, width, basis, row, value, zeta);
     memcpy(some, row, points * width * sizeof *some);
-    if (sampled && !good)
-        good = fit_with_time(o, points, width, basis, row, row + points * fields, value, zeta);
+    if (sampled && !good) good = fit_with_time(o, points, width, basis, row, row + points * fields, value, zeta);
     for (size_t at = width; at < shown && sampled && !good; at += NH_AFFINE_FIELD_WORDS) {
         memcpy(basis + width, word + at, NH_AFFINE_FIELD_WORDS * sizeof *basis);
         memcpy(some + points * width, row + points * at, points * NH_AFFINE_FIELD_WORDS * sizeof *some);

@@ -114,7 +114,8 @@ static bool build_polynomial(builder *b, const nh_family *f, part *p)
     nh_dag *d = b->a->dag;
     size_t n = f->in_count, degree = f->degree, count = 0, *x = take(b, n, sizeof *x),
            *list = take(b, degree, sizeof *list);
-    do count++; while (count <= b->most && next_exponents(n, degree, x));
+    do count++;
+    while (count <= b->most && next_exponents(n, degree, x));
     if (!part_alloc(b, p, count, count)) return false;
     size_t *exponents = take(b, count * n, sizeof *exponents), row = degree + 1;
     nh_ex *T = take(b, n * row, sizeof *T);
@@ -218,7 +219,8 @@ static bool multiply_parts(builder *b, const part *x, const part *y, part *p)
 static bool build(builder *b, const nh_family *f, part *p)
 {
     switch (f->kind) {
-#define X(kind, name, keys, single, columns) case kind: return build_##name(b, f, p);
+#define X(kind, name, keys, single, columns)                                                                           \
+    case kind: return build_##name(b, f, p);
         NH_FAMILY_TABLE(X)
 #undef X
     case NH_TERMS: return build_terms(b, f->terms, f->term, p);
@@ -319,7 +321,8 @@ static double size_of(const nh_family *f)
 {
     double size = 1;
     switch (f->kind) {
-#define X(kind, name, keys, single, columns) case kind: return (double)(columns);
+#define X(kind, name, keys, single, columns)                                                                           \
+    case kind: return (double)(columns);
         NH_FAMILY_TABLE(X)
 #undef X
     case NH_TERMS: return (double)f->terms;

@@ -16,10 +16,10 @@
 
 /* The named families: kind; name; keys in analysis files; is it in one variable?; number of columns of a family f.  For
  * each of them ansatz.c has a function build_NAME. */
-#define NH_FAMILY_TABLE(X)                                                                                       \
-    X(NH_POLYNOMIAL, polynomial, "basis, in, degree", false, monomials(f->in_count, f->degree))                  \
-    X(NH_FOURIER, fourier, "basis, in, harmonics, frequency, constant", false,                                   \
-      2 * f->in_count * f->degree + f->constant)                                                                 \
+#define NH_FAMILY_TABLE(X)                                                                                             \
+    X(NH_POLYNOMIAL, polynomial, "basis, in, degree", false, monomials(f->in_count, f->degree))                        \
+    X(NH_FOURIER, fourier, "basis, in, harmonics, frequency, constant", false,                                         \
+      2 * f->in_count * f->degree + f->constant)                                                                       \
     X(NH_CHEBYSHEV, chebyshev, "basis, in, degree", true, f->degree + 1)
 
 #define X(kind, name, keys, single, columns) kind,
@@ -30,14 +30,14 @@ typedef struct nh_family nh_family;
 struct nh_family {
     nh_family_kind kind;
     size_t in_count;
-    const nh_ex *in;        /* functions of the submanifold */
-    size_t degree;          /* polynomial: total degree; chebyshev; fourier: harmonics */
-    nh_ex frequency;        /* fourier: a number, an expression of parameters, or an unknown */
-    bool constant;          /* fourier: 1 is in the basis */
+    const nh_ex *in; /* functions of the submanifold */
+    size_t degree;   /* polynomial: total degree; chebyshev; fourier: harmonics */
+    nh_ex frequency; /* fourier: a number, an expression of parameters, or an unknown */
+    bool constant;   /* fourier: 1 is in the basis */
     size_t terms;
     const nh_ex *term;
     size_t parts;
-    const nh_family *part;  /* product */
+    const nh_family *part; /* product */
 };
 
 typedef struct {

@@ -16,8 +16,7 @@ static size_t equilibrate(nh_basis *basis, size_t rows, size_t columns, const do
         double length = nh_norm(rows, b + j * ld);
         bool constant = length == 0 || (size && length <= trivial * size[j]);
         basis->scale[j] = constant ? 0 : length;
-        if (!constant)
-            basis->column[count++] = j;
+        if (!constant) basis->column[count++] = j;
     }
     return count;
 }
@@ -86,8 +85,7 @@ static void keep_independent(nh_basis *basis, size_t rows, size_t available, con
             intruder[from[worst]] = true;
             j = from[kept = worst];
             sum_rows(kept, available, inverse, square);
-        } else
-            kept++;
+        } else kept++;
     }
     basis->smallest_kept = 1;
     for (size_t i = 0; i < kept; i++) {
@@ -160,8 +158,7 @@ bool nh_basis_init(nh_basis *basis, size_t rows, size_t columns, const double *b
     basis->scale = nh_alloc_array(columns, sizeof(double));
     basis->column = nh_alloc_array(columns, sizeof(size_t));
     size_t available = equilibrate(basis, rows, columns, b, ld, size, options->trivial);
-    if (available == 0)
-        return true;
+    if (available == 0) return true;
     basis->count = available;
     if (already_independent(basis, rows, columns, b, ld, options->rank)) return true;
     if (choose_columns(basis, rows, available, b, ld, options->rank)) return true;
@@ -182,8 +179,7 @@ void nh_basis_gather(const nh_basis *basis, size_t rows, const double *a, size_t
 {
     for (size_t j = 0; j < basis->count; j++) {
         size_t from = basis->column[j];
-        for (size_t i = 0; i < rows; i++)
-            out[i + j * rows] = a[i + from * ld] / basis->scale[from];
+        for (size_t i = 0; i < rows; i++) out[i + j * rows] = a[i + from * ld] / basis->scale[from];
     }
 }
 

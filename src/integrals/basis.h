@@ -17,8 +17,8 @@ typedef struct {
     double gap;       /* least ratio of the first non-null to the last null value (1e3) */
     /* sigma_max enters the null bound up to this value: a singular column must not make everything null (1e6) */
     double steepest;
-    double likely;    /* values up to this one, before the widest gap, are likely null (1e-7) */
-    double trivial;   /* a column whose variation is below trivial * its size is constant (1e-11) */
+    double likely;  /* values up to this one, before the widest gap, are likely null (1e-7) */
+    double trivial; /* a column whose variation is below trivial * its size is constant (1e-11) */
 } nh_nullspace_options;
 
 /* Columns that are independent over the samples, chosen by pivoted QR of the equilibrated matrix: B D^-1 P = Q R with

@@ -11,13 +11,13 @@
 #include "integrals/symmetry.h"
 
 typedef struct {
-    nh_ex *F, *form;        /* k; k: i_[Gamma,Z] phi^a of the submanifold's forms */
-    bool along_motion;      /* field is [Gamma, Z] - motion Gamma, which is shorter; else motion is 0 */
+    nh_ex *F, *form;   /* k; k: i_[Gamma,Z] phi^a of the submanifold's forms */
+    bool along_motion; /* field is [Gamma, Z] - motion Gamma, which is shorter; else motion is 0 */
     nh_ex motion;
-    nh_field field;         /* simplified */
-    nh_ex *rate;            /* m: its components along the velocities of the coordinates */
-    bool decided;           /* a and b exist, and the relation is an identity of expressions */
-    nh_ex a, b;             /* b is 0 in case 1 */
+    nh_field field; /* simplified */
+    nh_ex *rate;    /* m: its components along the velocities of the coordinates */
+    bool decided;   /* a and b exist, and the relation is an identity of expressions */
+    nh_ex a, b;     /* b is 0 in case 1 */
 } nh_bracket;
 
 /* The symmetry and the submanifold belong to the same model. */

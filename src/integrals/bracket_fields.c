@@ -9,7 +9,7 @@ typedef struct {
     const nh_model *o;
     nh_dag *d;
     size_t m, n, width;
-    nh_ex *inverse, *P, *H;    /* M^-1; R M^-1; M^-1 G^T M^-1 */
+    nh_ex *inverse, *P, *H; /* M^-1; R M^-1; M^-1 G^T M^-1 */
 } maker;
 
 static nh_ex product(nh_dag *d, nh_ex a, nh_ex b) { return nh_mul(d, a, b); }

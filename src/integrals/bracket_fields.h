@@ -19,10 +19,10 @@
 #include "geometry/submanifold.h"
 
 typedef struct {
-    size_t width;              /* 1 + m + n components of each field, along t, q, w */
-    nh_ex *gamma;              /* width */
-    size_t across, all;        /* k; m + n */
-    nh_ex *U, *V;              /* across x width, all x width */
+    size_t width;       /* 1 + m + n components of each field, along t, q, w */
+    nh_ex *gamma;       /* width */
+    size_t across, all; /* k; m + n */
+    nh_ex *U, *V;       /* across x width, all x width */
 } nh_bracket_fields;
 
 /* In the arena, of the submanifold's model and forms. */

@@ -54,8 +54,7 @@ static bool take(line *l, nh_ball *ball, nh_ex rate, double s, nh_crossing *c, n
     size_t width = l->o->width;
     for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++) {
         c->point[0][k] = c->point[1][k] = nh_arena_alloc(arena, width * sizeof(double));
-        for (size_t j = 0; j < width; j++)
-            c->point[0][k][j] = l->origin[j] + s * (1 - distance[k]) * l->direction[j];
+        for (size_t j = 0; j < width; j++) c->point[0][k][j] = l->origin[j] + s * (1 - distance[k]) * l->direction[j];
     }
     return passes(l, ball, rate, c->point[0]);
 }

@@ -11,9 +11,9 @@
 #include "integrals/crossings.h"
 
 typedef struct {
-    nh_ex wall;               /* zero where the branches meet, in the velocity u */
-    nh_ex root, there;        /* the symbol of u, and its value on the other branch */
-    nh_crossings crossings;   /* the points of both sides are the same ones: (t, q, w) */
+    nh_ex wall;             /* zero where the branches meet, in the velocity u */
+    nh_ex root, there;      /* the symbol of u, and its value on the other branch */
+    nh_crossings crossings; /* the points of both sides are the same ones: (t, q, w) */
 } nh_branch_end;
 
 /* No crossings where the chart has one branch, and where no motion was seen to change it.  Belongs to the arena. */

@@ -13,9 +13,20 @@
 #include "integrals/projected_points.h"
 #include "system/sample.h"
 
-enum { lines = 48, least_lines = 16, motions = 12, motion_steps = 240,
-       wanted = 2, least_wanted = 6, most_wanted = 32, tries = 4, /* of one part of a wall; of a wall */
-       steps_out = 31, grid = 2 * steps_out + 1, most_steps = 200, bits = 192 };
+enum {
+    lines = 48,
+    least_lines = 16,
+    motions = 12,
+    motion_steps = 240,
+    wanted = 2,
+    least_wanted = 6,
+    most_wanted = 32,
+    tries = 4, /* of one part of a wall; of a wall */
+    steps_out = 31,
+    grid = 2 * steps_out + 1,
+    most_steps = 200,
+    bits = 192
+};
 static const double long_rates = 2e4; /* instructions */
 /* in half widths of the box: the lines reach 0.08 * 1.25^30 = 65 of them */
 static const double first_step = 0.08, ratio = 1.25, digits = 4e-16;
@@ -28,17 +39,17 @@ typedef struct {
     const nh_walls *walls;
     size_t explicit_width, found[NH_MOST_WALLS], tried[NH_MOST_WALLS], most; /* most crossings of a wall */
     uint64_t key[NH_MOST_WALLS][most_wanted]; /* of the crossings found: which part of the wall */
-    nh_tape *tape;      /* per wall: g, then its derivatives by (t, q, w); then what divides walls into parts */
+    nh_tape *tape; /* per wall: g, then its derivatives by (t, q, w); then what divides walls into parts */
     nh_tape_work *work;
     nh_ball *ball;
-    nh_ex *rate;        /* Gamma: 1, rho, a */
-    nh_tape *rates;     /* the same */
+    nh_ex *rate;    /* Gamma: 1, rho, a */
+    nh_tape *rates; /* the same */
     nh_tape_work *rates_work;
     double *origin, *direction, *z, *out, *half, *middle, *passing;
     nh_projector *projector; /* NULL: lines in the chart */
-    double *position;          /* t, q, v */
+    double *position;        /* t, q, v */
     nh_open_way *way;
-    double *begin;             /* a state of the box; NULL: the line is a part of a motion that began there */
+    double *begin; /* a state of the box; NULL: the line is a part of a motion that began there */
     nh_arena *arena;
     nh_crossings list;
 } finder;
@@ -165,8 +176,9 @@ static bool is_reached(finder *x, nh_crossing *c)
     passage far[2], near[2];
     if (is_before(x->o->system, c->point[0][0])) return false;
     for (int side = 0; side < 2; side++) {
-        if (!passage_at(x, c->wall, c->point[side][1], &far[side])
-            || !passage_at(x, c->wall, c->point[side][2], &near[side])) return false;
+        if (!passage_at(x, c->wall, c->point[side][1], &far[side]) ||
+            !passage_at(x, c->wall, c->point[side][2], &near[side]))
+            return false;
         if (ends(far[side], near[side], 2, 0.5, 0.5)) return false;
     }
     return near[1].speed < 0 || (c->touches ? near[0].speed < 0 : near[0].speed > 0);
@@ -231,8 +243,8 @@ static bool is_open_to(finder *x, const double *to)
     for (int k = 0; k < places && open; k++) { /* not up to the wall itself */
         bool here = at(&w, (double)k / places, f[k % 2], slope);
         for (size_t i = 0; i < x->walls->count && here && before && open; i++)
-            if (f[0][i] * f[1][i] < 0 && find_change(&(quantity){&w, i, false, false}, (double)(k - 1) / places,
-                                                     (double)k / places, &where))
+            if (f[0][i] * f[1][i] < 0 &&
+                find_change(&(quantity){&w, i, false, false}, (double)(k - 1) / places, (double)k / places, &where))
                 open = !is_clearly_unreached(&w, i, where);
         before = here;
     }
@@ -282,7 +294,7 @@ static double grid_point(size_t k)
 {
     if (k == steps_out) return 0;
     return k > steps_out ? first_step * pow(ratio, (double)(k - steps_out - 1))
-        : -first_step * pow(ratio, (double)(steps_out - 1 - k));
+                         : -first_step * pow(ratio, (double)(steps_out - 1 - k));
 }
 
 /* Looks for crossings at the places s of the line, in ascending order. */

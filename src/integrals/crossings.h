@@ -23,7 +23,7 @@ enum { NH_CROSSING_DEPTHS = 3 };
 
 typedef struct {
     nh_ex wall;
-    bool touches;                           /* the function has one sign on both sides */
+    bool touches; /* the function has one sign on both sides */
     /* (t, q, w, u): points where the function is negative, positive, each nearer to the wall than the one before */
     double *point[2][NH_CROSSING_DEPTHS];
 } nh_crossing;

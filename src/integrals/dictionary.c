@@ -17,12 +17,12 @@ enum { least_entries = 24, entries_each = 3, seen_each = 512, least_seen = 4096,
 typedef struct {
     nh_model *o;
     nh_dictionary *out;
-    nh_ex lagrangian;   /* without total derivatives, whose functions are in no equation */
+    nh_ex lagrangian; /* without total derivatives, whose functions are in no equation */
     /* largest number of entries of each list, and of visited nodes: they grow with the coordinates */
     size_t most, most_seen;
     size_t seen_count, all_waves;
-    nh_ex *seen;        /* visited nodes */
-    nh_ex *all_wave;    /* every coordinate inside a sine or cosine */
+    nh_ex *seen;     /* visited nodes */
+    nh_ex *all_wave; /* every coordinate inside a sine or cosine */
     /* in forces and constraints: the integral of 1/(b + c q) is added, too; in the Lagrangian that of 1/(b + c t) */
     bool integrate;
 } harvester;
@@ -444,9 +444,10 @@ static nh_ex *take(const harvester *h)
 
 nh_dictionary nh_dictionary_of(nh_model *o)
 {
-    harvester h = {
-        .o = o, .lagrangian = nh_total_derivative_removed(o), .most = larger(least_entries, entries_each * o->m),
-        .most_seen = larger(least_seen, seen_each * o->m)};
+    harvester h = {.o = o,
+                   .lagrangian = nh_total_derivative_removed(o),
+                   .most = larger(least_entries, entries_each * o->m),
+                   .most_seen = larger(least_seen, seen_each * o->m)};
     nh_dictionary out = {.velocity = take(&h),
                          .form = take(&h),
                          .atom = take(&h),
@@ -473,8 +474,7 @@ nh_dictionary nh_dictionary_of(nh_model *o)
     for (size_t s = 0; s < o->m; s++) walk(&h, o->rho[s]);
     for (size_t s = 0; s < o->m; s++)
         if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);
-    for (size_t s = 0; s < o->m; s++)
-        add_momentum(&h, nh_diff(o->dag, h.lagrangian, o->system->coordinate[s].v));
+    for (size_t s = 0; s < o->m; s++) add_momentum(&h, nh_diff(o->dag, h.lagrangian, o->system->coordinate[s].v));
     nh_ex place[NH_MOST_PLACES];
     size_t places = nh_places_of(o, place);
     for (size_t i = 0; i < places; i++) add(&h, &out.places, out.place, place[i]);

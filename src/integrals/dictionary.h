@@ -24,19 +24,19 @@ typedef struct {
     size_t velocities, forms, atoms, potentials, momenta;
     nh_ex *velocity, *form, *atom, *potential, *momentum; /* functions on the submanifold, in the chart */
     size_t positions, places;
-    nh_ex *position;    /* the coordinates */
+    nh_ex *position; /* the coordinates */
     nh_ex *place;
     size_t frames;
     /* forms in which the kinetic energy is a sum of squares, each with a factor that depends on position; none when the
      * velocities themselves are such forms */
     nh_ex *frame;
     size_t waves;
-    nh_ex *wave;        /* angles that occur in sines and cosines of the system, or are declared so */
+    nh_ex *wave; /* angles that occur in sines and cosines of the system, or are declared so */
     size_t lengths;
     /* coordinates on which the equations of motion depend otherwise than through sines and cosines */
     nh_ex *length;
     size_t shapes;
-    nh_ex *shape;       /* coordinates on which the equations of motion depend at all */
+    nh_ex *shape; /* coordinates on which the equations of motion depend at all */
 } nh_dictionary;
 
 /* Belongs to the model's arena. */

@@ -43,7 +43,7 @@ bool nh_fixed_is_like(const nh_model *model, size_t n, const nh_ex *exact, const
  * expressions that contain the relevant parameters. */
 typedef bool nh_fixed_test(const nh_ex *fixed, void *context);
 const nh_ex *nh_fixed_least(const nh_model *model, size_t n, const nh_ex *occurring, nh_fixed_test *holds,
-                           void *context);
+                            void *context);
 
 /* The parameters that two statements together fix: NULL as well as an empty list means none. */
 const nh_ex *nh_fixed_both(const nh_model *model, const nh_ex *a, const nh_ex *b);

@@ -13,11 +13,9 @@
 
 enum { near_terms = 8, first_degree = 16, heldout = 4, heldout_tries = 60, heldout_from = 100000 };
 /* part of the first interval: its Taylor polynomials are exact to rounding there */
-static const double near_part = 1e-3,
-    least_step = 1e-4,                /* part of the interval of s */
+static const double near_part = 1e-3, least_step = 1e-4, /* part of the interval of s */
     /* part of the sampling interval by which the series extend beyond it, where that is possible */
-    room = 0.04,
-    cut = 0.9;                        /* factor by which the interval shrinks when the series there would be too long */
+    room = 0.04, cut = 0.9; /* factor by which the interval shrinks when the series there would be too long */
 
 struct nh_series_search {
     const nh_model *o; /* borrows */
@@ -53,8 +51,7 @@ nh_series_search *nh_series_open(const nh_model *o, nh_ex variable, size_t words
                                  const nh_options *options)
 {
     nh_series_search *x = nh_alloc(sizeof *x);
-    *x = (nh_series_search){
-        .o = o, .options = options, .variable = variable, .chart = *o->chart, .thin = *o};
+    *x = (nh_series_search){.o = o, .options = options, .variable = variable, .chart = *o->chart, .thin = *o};
     x->thin.chart = &x->chart;
     x->chart.low = x->low = nh_alloc_array(o->width, sizeof *x->low);
     x->chart.high = x->high = nh_alloc_array(o->width, sizeof *x->high);
@@ -274,10 +271,8 @@ bool nh_series_extend(nh_series_search *x, double beyond, nh_arena *arena, nh_se
     while (low < x->middle && x->middle < high && !(c = fit(x, low, high, &degree)) && !nh_late() &&
            high - low > least_step * width) {
         bool right = high - x->middle > x->middle - low;
-        if (right)
-            high = shortened(x->middle + cut * (high - x->middle), high - low, floor);
-        else
-            low = shortened(x->middle - cut * (x->middle - low), high - low, ceil);
+        if (right) high = shortened(x->middle + cut * (high - x->middle), high - low, floor);
+        else low = shortened(x->middle - cut * (x->middle - low), high - low, ceil);
     }
     if (!c) return false;
     *out = (nh_series_space){.low = low,

@@ -39,7 +39,7 @@ typedef struct {
     /* the point at which the functions are simplest: there each of certain words has coefficient 1 in one current and 0
      * in the others */
     double at;
-    size_t *alone;  /* per current: this word; `words` where there is none */
+    size_t *alone; /* per current: this word; `words` where there is none */
     /* per current: the digits to which its rate cancels, with more digits in the coefficients than doubles have */
     double *digits;
 } nh_series_space;

@@ -134,7 +134,9 @@ void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, 
 {
     size_t width = 1 + o->m + o->n, count = points->count;
     double *g = gradients(o, points, n, phi, width);
-    frame f = {.width = width, .points = count, .basis = nh_alloc_array(count * width * width + 1, sizeof(double)),
+    frame f = {.width = width,
+               .points = count,
+               .basis = nh_alloc_array(count * width * width + 1, sizeof(double)),
                .without = nh_alloc_array(count + 1, sizeof(bool))};
     double *rest = nh_alloc_array(count * width + 1, sizeof *rest), *left = nh_alloc_array(count + 1, sizeof *left);
     for (size_t k = 0; k < n; k++) {

@@ -47,8 +47,7 @@ static bool lift(problem *p, nh_symbolise_decimals_kind kind, size_t only, nh_li
         p->lifted[j] =
             nh_symbolise_decimals_inside(d, p->term[j], kind, p->o->system->parameters, p->o->parameter, numbers);
     if (numbers->overflow || only >= numbers->count) return !numbers->overflow && numbers->count > 0;
-    for (size_t i = 0; i < numbers->count; i++)
-        value[i] = i == only ? numbers->symbol[i] : numbers->exact[i];
+    for (size_t i = 0; i < numbers->count; i++) value[i] = i == only ? numbers->symbol[i] : numbers->exact[i];
     for (size_t j = 0; j < p->n; j++)
         p->lifted[j] = nh_substitute(d, p->lifted[j], numbers->count, numbers->symbol, value);
     numbers->symbol[0] = numbers->symbol[only];
@@ -78,8 +77,7 @@ nh_fixed nh_letters_relation(const nh_model *o, size_t n, nh_ex *term, const dou
     nh_ex *work = nh_alloc_array(4 * n + 1, sizeof *work);
     problem p = {o, options, n, term, coefficient, work, work + n, work + 2 * n, work + 3 * n, letters};
     nh_fixed found = {0};
-    for (size_t i = 0; i < kinds && !found.all_parameters; i++)
-        found = try_kind(&p, kind[i]);
+    for (size_t i = 0; i < kinds && !found.all_parameters; i++) found = try_kind(&p, kind[i]);
     if (found.all_parameters) {
         memcpy(term, p.named, n * sizeof *term);
         memcpy(out, p.out, n * sizeof *out);

@@ -12,7 +12,8 @@
 
 enum {
     most_words = 32,
-    most_forms = 5, longest_entry = 300,
+    most_forms = 5,
+    longest_entry = 300,
     longest = 3000,
     longest_form = 60,
     longest_shown = 250

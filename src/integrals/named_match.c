@@ -102,8 +102,7 @@ static bool add_zeros(matcher *m, points *s, nh_ex factor)
     double sign = value_of(m, discriminant);
     if (!isfinite(sign) || sign == 0) return false;
     nh_ex r = root(m, sign < 0 ? nh_neg(d, discriminant) : discriminant), below = times(m, nh_int(d, 2), c2);
-    if (sign < 0)
-        return add_pair(m, s, simple(d, nh_neg(d, over(m, c1, below))), simple(d, over(m, r, below)));
+    if (sign < 0) return add_pair(m, s, simple(d, nh_neg(d, over(m, c1, below))), simple(d, over(m, r, below)));
     return add_point(m, s, simple(d, over(m, nh_sub(d, r, c1), below))) &&
            add_point(m, s, simple(d, nh_neg(d, over(m, plus(m, r, c1), below))));
 }

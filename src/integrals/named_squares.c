@@ -35,8 +35,8 @@ typedef struct {
     const nh_ex *word;
     size_t rows, capacity;
     row *row;
-    bool live[most];        /* is the unknown still to be found? */
-    nh_ex T[most][most];    /* f_i = sum_j T_ij g_j */
+    bool live[most];     /* is the unknown still to be found? */
+    nh_ex T[most][most]; /* f_i = sum_j T_ij g_j */
     bool good;
     nh_arena *arena;
     size_t count;
@@ -242,8 +242,10 @@ static bool drop_free(seeker *x)
 static void eliminate(seeker *x)
 {
     do {
-        while (x->good && use_algebraic(x)) {}
-        while (x->good && use_derivative(x)) {}
+        while (x->good && use_algebraic(x)) {
+        }
+        while (x->good && use_derivative(x)) {
+        }
         bool again = false;
         for (size_t r = 0; r < x->rows; r++) again |= !entries(x, x->row[r].P) && entries(x, x->row[r].Q);
         if (again) continue;
@@ -255,11 +257,11 @@ static void eliminate(seeker *x)
 
 typedef struct {
     size_t g[three];
-    nh_ex A[three][three];       /* g' = A g */
-    nh_ex V[three + 1][three];   /* y, y', y'', y''' in g, y being one of these */
+    nh_ex A[three][three];     /* g' = A g */
+    nh_ex V[three + 1][three]; /* y, y', y'', y''' in g, y being one of these */
     nh_ex det, p, q, r;
-    nh_ex lead;                  /* what y is multiplied by */
-    bool square;                 /* y = u v, and u and v satisfy */
+    nh_ex lead;  /* what y is multiplied by */
+    bool square; /* y = u v, and u and v satisfy */
     nh_named_equation root;
 } block;
 
@@ -432,8 +434,15 @@ size_t nh_named_squares(const nh_model *o, nh_ex variable, size_t words, const n
     seeker *x = nh_alloc(sizeof *x);
     bool seen[most] = {false};
     size_t g[most];
-    *x = (seeker){.o = o, .d = o->dag, .s = variable, .zero = nh_int(o->dag, 0), .words = words, .word = word,
-                  .good = words <= most, .arena = arena, .out = out};
+    *x = (seeker){.o = o,
+                  .d = o->dag,
+                  .s = variable,
+                  .zero = nh_int(o->dag, 0),
+                  .words = words,
+                  .word = word,
+                  .good = words <= most,
+                  .arena = arena,
+                  .out = out};
     *open = NULL;
     if (x->good) fill(x);
     if (x->good) eliminate(x);

@@ -5,7 +5,6 @@
 
 #include "graph/expr.h"
 
-
 /* u'' = p u' + q u, the derivatives by `variable`. */
 typedef struct {
     nh_ex variable, p, q;

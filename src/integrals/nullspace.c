@@ -19,7 +19,7 @@ struct nh_equations {
     double *chunk;    /* CHUNK x (1 + columns) */
     const char *bad;  /* name of the values that were not finite, or NULL */
     size_t bad_column;
-    bool *left_out;   /* per column that was not finite somewhere; NULL: such a column is an error */
+    bool *left_out; /* per column that was not finite somewhere; NULL: such a column is an error */
 };
 
 nh_equations *nh_equations_create(size_t columns, size_t threads)
@@ -47,8 +47,7 @@ void nh_equations_leave_out(nh_equations *equations)
 
 void nh_equations_free(nh_equations *equations)
 {
-    if (!equations)
-        return;
+    if (!equations) return;
     nh_qr_free(equations->residuals);
     nh_qr_free(equations->values);
     nh_free(equations->chunk);
@@ -78,21 +77,18 @@ static bool check_finite(nh_equations *equations, const char *what, size_t rows,
 
 void nh_equations_add(nh_equations *equations, size_t rows, double *a, size_t ld)
 {
-    if (check_finite(equations, "the equations", rows, a, ld))
-        nh_qr_add(equations->residuals, rows, a, ld);
+    if (check_finite(equations, "the equations", rows, a, ld)) nh_qr_add(equations->residuals, rows, a, ld);
 }
 
 void nh_equations_add_values(nh_equations *equations, size_t rows, double *b, size_t ld)
 {
-    if (!check_finite(equations, "the values", rows, b, ld))
-        return;
+    if (!check_finite(equations, "the values", rows, b, ld)) return;
     for (size_t done = 0; done < rows; done += CHUNK) {
         size_t take = rows - done < CHUNK ? rows - done : CHUNK;
         for (size_t j = 0; j < equations->columns; j++)
             memcpy(equations->chunk + (j + 1) * CHUNK, b + done + j * ld, take * sizeof *b);
         /* the column of ones must survive: the contract lets nh_qr_add overwrite it */
-        for (size_t i = 0; i < take; i++)
-            equations->chunk[i] = 1;
+        for (size_t i = 0; i < take; i++) equations->chunk[i] = 1;
         nh_qr_add(equations->values, take, equations->chunk, CHUNK);
     }
 }
@@ -156,15 +152,13 @@ static bool quotient(nh_equations *equations, const nh_basis *basis, double *spe
     bool ok = nh_svd(n, k, a, s, NULL, vt);
     for (size_t j = 0; j < k && ok; j++) {
         spectrum[j] = s[k - 1 - j];
-        for (size_t i = 0; i < k; i++)
-            v[i + j * k] = vt[(k - 1 - j) + i * k];
+        for (size_t i = 0; i < k; i++) v[i + j * k] = vt[(k - 1 - j) + i * k];
     }
     nh_free(triangle);
     nh_free(a);
     nh_free(s);
     nh_free(vt);
-    if (nh_interrupted())
-        return nh_fail_ended(error, "while %zu columns were compared", n);
+    if (nh_interrupted()) return nh_fail_ended(error, "while %zu columns were compared", n);
     return ok || nh_fail(error, NH_NUMERIC, "", "the singular value decomposition of %zu columns failed", k);
 }
 
@@ -178,17 +172,13 @@ static void decide(nh_nullspace *result, const nh_nullspace_options *options)
     const double *sigma = result->spectrum;
     result->next_left_scale = k ? sigma[k - 1] : 0;
     double bound = options->zero * DBL_EPSILON * fmax(1, fmin(options->steepest, result->next_left_scale));
-    while (null < k && sigma[null] <= bound)
-        null++;
+    while (null < k && sigma[null] <= bound) null++;
     size_t low = null; /* one past the undecided ones */
-    while (low < k && sigma[low] <= options->undecided * bound)
-        low++;
+    while (low < k && sigma[low] <= options->undecided * bound) low++;
     result->dimension = null;
     result->gap = null > 0 && null < k ? sigma[null] / fmax(sigma[null - 1], DBL_EPSILON) : INFINITY;
-    if (low > null || result->gap <= options->gap)
-        result->verdict = NH_UNDECIDED;
-    else
-        result->verdict = null > 0 ? NH_FOUND : NH_NONE;
+    if (low > null || result->gap <= options->gap) result->verdict = NH_UNDECIDED;
+    else result->verdict = null > 0 ? NH_FOUND : NH_NONE;
 }
 
 /* The widest gap after values that could still be null. */
@@ -210,19 +200,15 @@ static void fix_sign(size_t n, double *c)
 {
     size_t largest = 0;
     for (size_t i = 1; i < n; i++)
-        if (fabs(c[i]) > fabs(c[largest]))
-            largest = i;
+        if (fabs(c[i]) > fabs(c[largest])) largest = i;
     double sign = c[largest] < 0 ? -1 : 1;
-    for (size_t i = 0; i < n; i++)
-        c[i] = sign * c[i] + 0.0; /* + 0 turns -0 into 0 */
+    for (size_t i = 0; i < n; i++) c[i] = sign * c[i] + 0.0; /* + 0 turns -0 into 0 */
 }
 
 static void describe_basis(nh_nullspace *result, const nh_basis *basis, const nh_nullspace_options *options)
 {
-    for (size_t j = 0; j < result->columns; j++)
-        result->dropped[j] = true;
-    for (size_t j = 0; j < basis->count; j++)
-        result->dropped[basis->column[j]] = false;
+    for (size_t j = 0; j < result->columns; j++) result->dropped[j] = true;
+    for (size_t j = 0; j < basis->count; j++) result->dropped[basis->column[j]] = false;
     result->rank = basis->count;
     result->smallest_kept = basis->smallest_kept;
     result->largest_dropped = basis->largest_dropped;
@@ -241,8 +227,7 @@ static bool solve(nh_nullspace *result, nh_equations *equations, const nh_basis 
         result->likely = likely_null(result, options);
         result->vector = nh_alloc_array(result->columns * result->likely, sizeof(double));
         nh_basis_expand(basis, result->columns, result->likely, v, result->vector);
-        for (size_t j = 0; j < result->likely; j++)
-            fix_sign(result->columns, result->vector + j * result->columns);
+        for (size_t j = 0; j < result->likely; j++) fix_sign(result->columns, result->vector + j * result->columns);
     }
     nh_free(v);
     return ok;
@@ -259,8 +244,7 @@ static nh_nullspace *solve_in(nh_basis *basis, nh_equations *equations, const nh
     describe_basis(result, basis, options);
     bool ok = solve(result, equations, basis, options, error);
     nh_basis_clear(basis);
-    if (ok)
-        return result;
+    if (ok) return result;
     nh_nullspace_free(result);
     return NULL;
 }
@@ -268,8 +252,7 @@ static nh_nullspace *solve_in(nh_basis *basis, nh_equations *equations, const nh
 nh_nullspace *nh_nullspace_solve(nh_equations *equations, const nh_nullspace_options *options, nh_error *error)
 {
     nh_basis basis;
-    if (!check_input(equations, error) || !independent_values(&basis, equations, options, error))
-        return NULL;
+    if (!check_input(equations, error) || !independent_values(&basis, equations, options, error)) return NULL;
     return solve_in(&basis, equations, options, error);
 }
 
@@ -303,8 +286,7 @@ nh_nullspace *nh_nullspace_plain(nh_equations *equations, const nh_nullspace_opt
 
 void nh_nullspace_free(nh_nullspace *nullspace)
 {
-    if (!nullspace)
-        return;
+    if (!nullspace) return;
     nh_free(nullspace->spectrum);
     nh_free(nullspace->vector);
     nh_free(nullspace->dropped);

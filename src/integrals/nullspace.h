@@ -41,17 +41,17 @@ void nh_equations_add_values(nh_equations *equations, size_t rows, double *b, si
 
 typedef struct {
     nh_verdict verdict;
-    size_t columns, rows;  /* of A as given */
-    size_t rank;           /* independent, non-constant columns kept; length of the spectrum */
-    double *spectrum;      /* generalized singular values, ascending, `rank` of them */
-    size_t dimension;      /* of the null space */
+    size_t columns, rows; /* of A as given */
+    size_t rank;          /* independent, non-constant columns kept; length of the spectrum */
+    double *spectrum;     /* generalized singular values, ascending, `rank` of them */
+    size_t dimension;     /* of the null space */
     /* >= dimension: number of values before the widest gap; nearly dependent columns lift true null values above
      * rounding, so that these vectors deserve a certificate, and mean nothing without one */
     size_t likely;
     /* spectrum[dimension] / max(spectrum[dimension-1], eps); INFINITY when nothing is above or below */
     double gap;
-    double *vector;        /* columns x likely, in the columns' own units, |B c| = 1; dropped columns have 0 */
-    bool *dropped;         /* per column */
+    double *vector; /* columns x likely, in the columns' own units, |B c| = 1; dropped columns have 0 */
+    bool *dropped;  /* per column */
     /* pivots of B relative to the first; closer than 1e3: the rank is in doubt */
     double smallest_kept, largest_dropped;
     bool rank_in_doubt;

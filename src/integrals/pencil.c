@@ -24,18 +24,15 @@ typedef struct {
     size_t rows, columns;
     const double *a, *b; /* borrows the caller's */
     nh_basis basis;
-    size_t n;        /* independent columns */
+    size_t n;         /* independent columns */
     double *k, *rest; /* n x n */
-    double null;     /* singular values up to this count as zero */
+    double null;      /* singular values up to this count as zero */
     size_t dimension;
-    double *v;       /* n x dimension */
-    double *h;       /* dimension x dimension: V^T K V */
+    double *v; /* n x dimension */
+    double *h; /* dimension x dimension: V^T K V */
 } work;
 
-static double *new_matrix(size_t rows, size_t columns)
-{
-    return nh_alloc_array(rows * columns, sizeof(double));
-}
+static double *new_matrix(size_t rows, size_t columns) { return nh_alloc_array(rows * columns, sizeof(double)); }
 
 static bool failed(nh_error *error)
 {
@@ -47,8 +44,7 @@ static bool failed(nh_error *error)
 static bool check_column(const char *what, size_t j, size_t rows, const double *x, nh_error *error)
 {
     double sum = 0;
-    for (size_t i = 0; i < rows; i++)
-        sum += x[i] - x[i]; /* 0, or NaN for a NaN or an infinity */
+    for (size_t i = 0; i < rows; i++) sum += x[i] - x[i]; /* 0, or NaN for a NaN or an infinity */
     return sum == 0 ||
            nh_fail(error, NH_NUMERIC, "", "column %zu of the pencil is not finite in %s at some sample point", j, what);
 }
@@ -126,9 +122,8 @@ static bool reduce(work *w, const nh_nullspace_options *options, nh_error *error
     if (ok && n > 0) {
         s = new_matrix(2 * n, 2 * n);
         triangle_of_basis(w, t, s);
-        quotient = s + 2 * n * n; /* [R12; R22] */
-        for (size_t j = 0; j < n; j++)
-            /* the same triangle, with the signs that Q has here */
+        quotient = s + 2 * n * n;      /* [R12; R22] */
+        for (size_t j = 0; j < n; j++) /* the same triangle, with the signs that Q has here */
             memcpy(w->basis.r + j * n, s + j * 2 * n, n * sizeof *s);
         nh_solve_triangle_right(2 * n, n, w->basis.r, n, quotient);
         double norm;
@@ -166,12 +161,10 @@ static bool restrict_to_null(work *w, double *m)
     bool ok = nh_svd(w->n, d, m, s, NULL, vt);
     for (size_t j = 0; j < d && ok; j++)
         if (s[j] <= w->null) {
-            for (size_t i = 0; i < d; i++)
-                y[i + kept * d] = vt[j + i * d];
+            for (size_t i = 0; i < d; i++) y[i + kept * d] = vt[j + i * d];
             kept++;
         }
-    if (ok)
-        restrict_to(w, kept, y);
+    if (ok) restrict_to(w, kept, y);
     nh_free(s);
     nh_free(vt);
     nh_free(y);
@@ -183,8 +176,7 @@ static void multiply_transposed(size_t n, size_t p, size_t q, const double *x, c
 {
     double *xt = new_matrix(p, n);
     for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < p; j++)
-            xt[j + i * p] = x[i + j * n];
+        for (size_t j = 0; j < p; j++) xt[j + i * p] = x[i + j * n];
     nh_multiply(p, q, n, xt, z, c);
     nh_free(xt);
 }
@@ -199,8 +191,7 @@ static void project(work *w, double *leak)
     multiply_transposed(n, d, d, w->v, leak, w->h);
     double *inside = new_matrix(n, d);
     nh_multiply(n, d, d, w->v, w->h, inside);
-    for (size_t i = 0; i < n * d; i++)
-        leak[i] -= inside[i];
+    for (size_t i = 0; i < n * d; i++) leak[i] -= inside[i];
     nh_free(inside);
 }
 
@@ -210,8 +201,7 @@ static bool invariant_subspace(work *w)
     size_t n = w->n;
     w->v = new_matrix(n, n);
     w->dimension = n;
-    for (size_t i = 0; i < n; i++)
-        w->v[i + i * n] = 1;
+    for (size_t i = 0; i < n; i++) w->v[i + i * n] = 1;
     double *m = new_matrix(n, n);
     memcpy(m, w->rest, n * n * sizeof *m);
     bool ok = restrict_to_null(w, m);
@@ -235,10 +225,8 @@ static bool remove_zero(work *w)
         double *leak = new_matrix(w->n, d), *u = new_matrix(d, d), *s = new_matrix(d, 1);
         project(w, leak);
         ok = nh_svd(d, d, w->h, s, u, NULL);
-        while (ok && kept < d && s[kept] > w->null)
-            kept++;
-        if (ok)
-            restrict_to(w, kept, u);
+        while (ok && kept < d && s[kept] > w->null) kept++;
+        if (ok) restrict_to(w, kept, u);
         nh_free(leak);
         nh_free(u);
         nh_free(s);
@@ -253,8 +241,7 @@ static void store_vector(nh_pencil *pencil, size_t to, const double *x, const do
 {
     size_t n = pencil->columns, largest = 0;
     for (size_t i = 1; i < n; i++)
-        if (hypot(x[i], y[i]) > hypot(x[largest], y[largest]))
-            largest = i;
+        if (hypot(x[i], y[i]) > hypot(x[largest], y[largest])) largest = i;
     double modulus = hypot(x[largest], y[largest]), c = x[largest] / modulus, s = y[largest] / modulus;
     for (size_t i = 0; i < n; i++) { /* (x + i y) (c - i s) / modulus */
         pencil->vector_re[i + to * n] = (x[i] * c + y[i] * s) / modulus;
@@ -268,14 +255,12 @@ static void store_pairs(nh_pencil *pencil, size_t count, const double *re, const
     size_t n = pencil->columns;
     double *none = new_matrix(n, 1), *minus = new_matrix(n, 1);
     for (size_t j = 0; j < count; j++) {
-        if (hypot(re[j], im[j]) <= smallest)
-            continue;
+        if (hypot(re[j], im[j]) <= smallest) continue;
         size_t to = pencil->dimension++;
         pencil->re[to] = re[j];
         pencil->im[to] = im[j];
         const double *x = c + (im[j] < 0 ? j - 1 : j) * n, *y = im[j] == 0 ? none : x + n;
-        for (size_t i = 0; i < n && im[j] < 0; i++)
-            minus[i] = -y[i];
+        for (size_t i = 0; i < n && im[j] < 0; i++) minus[i] = -y[i];
         store_vector(pencil, to, x, im[j] < 0 ? minus : y);
     }
     nh_free(none);
@@ -304,10 +289,7 @@ static bool eigenpairs(nh_pencil *pencil, work *w, double split)
     return ok;
 }
 
-static double square(double x)
-{
-    return x * x;
-}
+static double square(double x) { return x * x; }
 
 /* residual = |A f - lambda B f| / |B f|, with (lr + i li)(br + i bi) written out. */
 static void residuals(nh_pencil *pencil, const work *w)
@@ -346,8 +328,7 @@ static nh_pencil *create(size_t columns, size_t capacity)
 
 static nh_pencil *solve(work *w, const nh_nullspace_options *options, double split, nh_error *error)
 {
-    if (!check_input(w, error) || !reduce(w, options, error))
-        return NULL;
+    if (!check_input(w, error) || !reduce(w, options, error)) return NULL;
     if (w->n > 0 && (!invariant_subspace(w) || !remove_zero(w))) {
         failed(error);
         return NULL;
@@ -377,8 +358,7 @@ nh_pencil *nh_pencil_solve(size_t rows, size_t columns, double *a, double *b, co
 
 void nh_pencil_free(nh_pencil *pencil)
 {
-    if (!pencil)
-        return;
+    if (!pencil) return;
     nh_free(pencil->re);
     nh_free(pencil->im);
     nh_free(pencil->vector_re);

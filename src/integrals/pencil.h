@@ -14,11 +14,11 @@
 #include "integrals/nullspace.h"
 
 typedef struct {
-    size_t dimension;   /* of V */
+    size_t dimension; /* of V */
     /* eigenvalues lambda; complex ones as adjacent conjugate pairs, positive imaginary part first */
     double *re, *im;
     double *vector_re, *vector_im; /* columns x dimension: f = sum_j (re + i im) b_j, largest entry of modulus 1 */
-    double *residual;   /* |A f - lambda B f| / |B f| of each */
+    double *residual;              /* |A f - lambda B f| / |B f| of each */
     size_t columns;
 } nh_pencil;
 

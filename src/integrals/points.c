@@ -104,10 +104,10 @@ static double speeds_of(const nh_model *o, double *speed)
 /* Accelerations and velocities decide whether a point is usable: everything else consists of the same parts. */
 typedef struct {
     const nh_model *o;
-    nh_tape *tape;  /* rho (m), R (m x n, column-major), a (n), Lbar */
+    nh_tape *tape; /* rho (m), R (m x n, column-major), a (n), Lbar */
     nh_tape_work *work;
     double *out, *dense, *slope; /* slope: m x n, by which R is a number without units */
-    double *speed, rate; /* speeds_of */
+    double *speed, rate;         /* speeds_of */
     /* Unit of time, about 1/rate, so that a small rate is small in any unit.  A power of 1024, by which no digit is
      * lost. */
     double unit;
@@ -244,7 +244,7 @@ typedef struct {
     bool natural;
     guard guard;
     nh_bordered *bordered; /* NULL: points beyond the chart are not wanted, or none was found yet */
-    bool cover;      /* not of one branch of a quadratic constraint: all coordinates do not tell it from the other */
+    bool cover;   /* not of one branch of a quadratic constraint: all coordinates do not tell it from the other */
     size_t count; /* wanted number of points, and room for points beyond the chart */
     double *z, *v, *low, *high;
 } sampling;

@@ -10,8 +10,8 @@
 
 typedef struct nh_points nh_points;
 struct nh_points {
-    size_t count, width;      /* width = model->width */
-    double **column;          /* column[j][p]: coordinate j of (t, q, w, u) at point p; rows padded to whole batches */
+    size_t count, width; /* width = model->width */
+    double **column;     /* column[j][p]: coordinate j of (t, q, w, u) at point p; rows padded to whole batches */
     /* per point: 1 / (1 + max|a| + max|v|), without units, so that equations are relative to the local speed */
     double *weight;
     size_t tried, not_finite, not_solved, degenerate; /* rejections by reason */

@@ -26,9 +26,9 @@ struct nh_projector {
     const nh_model *o;
     nh_ball *ball;
     size_t m, k, n, inputs;
-    nh_ex *in;                   /* t, q, v, w of quasi-velocities */
-    double *at;                  /* their values */
-    newton constraints, chart;   /* f^a(t, q, v) = 0 for v; rho(t, q, w) - v = 0 for quasi-velocities w */
+    nh_ex *in;                 /* t, q, v, w of quasi-velocities */
+    double *at;                /* their values */
+    newton constraints, chart; /* f^a(t, q, v) = 0 for v; rho(t, q, w) - v = 0 for quasi-velocities w */
 };
 
 /* ---- one system of equations ---- */

@@ -109,8 +109,7 @@ static bool vanishes(const nh_ex *fixed, void *context)
 static bool prove_sum(const nh_model *o, nh_ex sum, nh_claim claim, size_t limit, nh_proof *proof)
 {
     nh_zero_verdict symbols = NH_TOO_LARGE, values = NH_ZERO;
-    if (!proof->proved && claim.free && !claim.rounded)
-        symbols = is_zero(o, with_symbols(o, claim.fixed, sum), limit);
+    if (!proof->proved && claim.free && !claim.rounded) symbols = is_zero(o, with_symbols(o, claim.fixed, sum), limit);
     if (symbols == NH_ZERO) *proof = holding(*proof, claim.fixed);
     if (!proof->proved && !claim.rounded) values = is_zero(o, nh_model_values(o, sum), limit);
     proof->proved = proof->proved || (!claim.rounded && values == NH_ZERO);
@@ -168,7 +167,7 @@ nh_proof nh_proof_both(const nh_model *o, nh_proof a, nh_proof b)
                     .all_parameters = a.all_parameters && b.all_parameters,
                     .digits = fmin(a.digits, b.digits)};
     const nh_ex *of_a = a.all_parameters || a.fixed ? a.fixed : nh_fixed_every(o),
-               *of_b = b.all_parameters || b.fixed ? b.fixed : nh_fixed_every(o);
+                *of_b = b.all_parameters || b.fixed ? b.fixed : nh_fixed_every(o);
     if (out.proved && !out.all_parameters) out.fixed = nh_fixed_both(o, of_a, of_b);
     out.points = a.points < b.points ? a.points : b.points;
     out.rounded = a.rounded || b.rounded;

@@ -11,17 +11,17 @@
 #include "geometry/model.h"
 
 typedef struct {
-    bool proved;          /* exactly zero, at least for the given parameters */
-    bool all_parameters;  /* for all parameter values */
+    bool proved;         /* exactly zero, at least for the given parameters */
+    bool all_parameters; /* for all parameter values */
     /* not for all values: the parameters that must have their values, where the others are free; NULL: proved for the
      * given values only */
     const nh_ex *fixed;
-    double digits;        /* of cancellation, least over the points; 0 when it could not be evaluated */
-    size_t points;        /* number of points at which it could be evaluated */
+    double digits; /* of cancellation, least over the points; 0 when it could not be evaluated */
+    size_t points; /* number of points at which it could be evaluated */
     /* its numbers were too long for exact rationals: only a double's digits can be expected */
     bool rounded;
-    bool sided;           /* proved where paired roots have the signs that they have at the probes (geometry/model.h) */
-    bool refuted;         /* a ball excludes zero: Phi with these coefficients is not conserved */
+    bool sided;   /* proved where paired roots have the signs that they have at the probes (geometry/model.h) */
+    bool refuted; /* a ball excludes zero: Phi with these coefficients is not conserved */
 } nh_proof;
 
 /* Gamma(Phi) term by term, one for each direction: 1 + m + n of them. */
@@ -33,7 +33,7 @@ typedef struct {
     bool free;
     /* parameters that must have their values, or be related to others (integrals/fixed.h); NULL: none */
     const nh_ex *fixed;
-    bool related;      /* an exact relation of its terms' rates is the proof */
+    bool related; /* an exact relation of its terms' rates is the proof */
     /* set by the proof: Phi contains numbers that are no rationals, whose sums may be whole numbers by rounding;
      * nothing is proved of it */
     bool rounded;

@@ -8,7 +8,6 @@
 
 #include "graph/expr.h"
 
-
 /* value = p/q with q <= most within the relative `tolerance`?  */
 bool nh_recognise_ratio(double value, int64_t most, double tolerance, nh_num *out);
 

@@ -11,10 +11,10 @@
 #include "geometry/model.h"
 
 typedef struct {
-    size_t count;        /* true currents, or 1 and the one that is nearest to it; 0: nothing could be decided */
+    size_t count; /* true currents, or 1 and the one that is nearest to it; 0: nothing could be decided */
     /* n x count, rounded; each has one leading coefficient that is not zero where the others' are */
     double *coefficient;
-    double *digits;      /* per vector: digits to which its rate cancels at held-out points */
+    double *digits; /* per vector: digits to which its rate cancels at held-out points */
 } nh_refined;
 
 /* leading[j]: the terms whose coefficients fix a vector (the pivots of an echelon form). */

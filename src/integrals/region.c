@@ -37,11 +37,13 @@ typedef struct {
 
 static bool side_at(const nh_model *o, nh_ball *ball, nh_ex g, double *z, sides *s)
 {
-    if (!nh_exact_at(o, ball, z) || !value_of(ball, o->Lbar, &s->L)
-        || !value_of(ball, nh_diff(o->dag, g, o->chart->symbol[0]), &s->rate)) return false;
+    if (!nh_exact_at(o, ball, z) || !value_of(ball, o->Lbar, &s->L) ||
+        !value_of(ball, nh_diff(o->dag, g, o->chart->symbol[0]), &s->rate))
+        return false;
     for (size_t i = 0; i < o->m; i++) {
-        if (!value_of(ball, o->p[i], &s->p[i]) || !value_of(ball, o->rho[i], &s->rho[i])
-            || !value_of(ball, nh_diff(o->dag, g, o->chart->symbol[1 + i]), &s->slope[i])) return false;
+        if (!value_of(ball, o->p[i], &s->p[i]) || !value_of(ball, o->rho[i], &s->rho[i]) ||
+            !value_of(ball, nh_diff(o->dag, g, o->chart->symbol[1 + i]), &s->slope[i]))
+            return false;
         s->rate += s->slope[i] * s->rho[i];
     }
     return true;
@@ -123,7 +125,7 @@ nh_terrain nh_terrain_of(const nh_model *o, const nh_options *options, nh_arena 
 
 /* The walls of phi that the equations of motion do not have. */
 static nh_crossings own_crossings(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
-    nh_arena *arena, bool *unseen)
+                                  nh_arena *arena, bool *unseen)
 {
     nh_walls all = terrain->walls, own = {0};
     uint64_t state = (uint64_t)options->seed + 2 * seed_offset;
@@ -153,8 +155,8 @@ static bool jumps(judge *j, const nh_crossing *c)
     double value[2][NH_CROSSING_DEPTHS], radius, size = 0;
     for (int side = 0; side < 2; side++)
         for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++) {
-            if (!nh_exact_at(j->o, j->ball, c->point[side][k])
-                || !nh_ball_value(j->ball, side && j->beyond ? j->beyond : j->phi, &value[side][k], &radius))
+            if (!nh_exact_at(j->o, j->ball, c->point[side][k]) ||
+                !nh_ball_value(j->ball, side && j->beyond ? j->beyond : j->phi, &value[side][k], &radius))
                 return false;
             size = fmax(size, fabs(value[side][k]));
         }
@@ -207,8 +209,9 @@ static void note(nh_region *r, nh_ex wall, const seen *s, bool touches)
         if (r->wall[i] == wall) return; /* of an impulse */
     r->wall[r->count] = wall;
     r->kind[r->count++] = s->below && s->above   ? NH_REGION_PARTS
-                          : s->below || s->above ? (touches ? NH_REGION_PARTS : s->below ? NH_REGION_ABOVE
-                              : NH_REGION_BELOW)
+                          : s->below || s->above ? (touches    ? NH_REGION_PARTS
+                                                    : s->below ? NH_REGION_ABOVE
+                                                               : NH_REGION_BELOW)
                                                  : NH_REGION_APART;
 }
 
@@ -263,14 +266,17 @@ static bool passes_all_walls(const nh_model *o, nh_ex phi)
 }
 
 nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, double digits,
-    const nh_options *options, nh_arena *arena)
+                       const nh_options *options, nh_arena *arena)
 {
     nh_region out = {0};
     nh_crossings own = own_crossings(o, terrain, phi, options, arena, &out.unseen);
     if (out.unseen && digits == 0) out.unseen = !passes_all_walls(o, phi);
     if (own.count + terrain->crossings.count + terrain->end.crossings.count == 0) return out;
-    judge j = {.o = o, .ball = nh_ball_create(o->dag, (long)options->bits), .phi = phi, .terms = 1 + o->m + o->n,
-        .digits = digits};
+    judge j = {.o = o,
+               .ball = nh_ball_create(o->dag, (long)options->bits),
+               .phi = phi,
+               .terms = 1 + o->m + o->n,
+               .digits = digits};
     j.term = nh_alloc_array(j.terms, sizeof *j.term);
     nh_rate_terms(o, phi, j.term);
     nh_exact_parameters(o, j.ball);
@@ -299,7 +305,7 @@ nh_region nh_region_of_pairs(const nh_model *o)
 }
 
 nh_region nh_region_open(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
-    nh_arena *arena)
+                         nh_arena *arena)
 {
     nh_region out = {0};
     nh_walls walls = {0};
@@ -389,8 +395,7 @@ const char *nh_region_text(nh_dag *d, const nh_region *r, nh_arena *arena)
                                                              : "");
         between = ", ";
     }
-    if (r->unseen)
-        nh_text_addf(&text, "%son one side of each %swall", between, r->count ? "further " : "");
+    if (r->unseen) nh_text_addf(&text, "%son one side of each %swall", between, r->count ? "further " : "");
     const char *out = nh_arena_strdup(arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;

@@ -46,7 +46,7 @@ nh_terrain nh_terrain_of(const nh_model *model, const nh_options *options, nh_ar
 /* `digits`: to which Gamma(Phi) has to cancel where Phi holds; 0: it is known to vanish on all sides.  No walls in
  * the result: Phi holds everywhere. */
 nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits,
-    const nh_options *options, nh_arena *arena);
+                       const nh_options *options, nh_arena *arena);
 
 /* The sides on which products of paired roots have their signs (geometry/model.h): a proof for these (nh_proof.sided)
  * holds there, if it does not everywhere. */
@@ -55,7 +55,7 @@ nh_region nh_region_of_pairs(const nh_model *model);
 /* The walls of phi, without ends of roots, at which nothing could be decided: no motion of this chart was seen to cross
  * them, perhaps because the chart's velocities end there. phi is one function on each side. */
 nh_region nh_region_open(const nh_model *model, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
-    nh_arena *arena);
+                         nh_arena *arena);
 
 /* Does it hold until motions end?  They do at an impulse, which their equations do not determine. */
 bool nh_region_to_the_end(const nh_region *region);

@@ -161,7 +161,7 @@ typedef struct {
     const nh_sectors *sectors;
     const nh_nullspace_options *options;
     size_t equations, points, threads; /* threads: of one sector */
-    double *a, *b; /* weighted rates, equations x columns; values, points x columns */
+    double *a, *b;                     /* weighted rates, equations x columns; values, points x columns */
     nh_nullspace **part;
     nh_error *error; /* one per sector */
 } task;

@@ -297,11 +297,11 @@ static void bracket(nh_model *o, nh_symmetry *z, const nh_ex *first, const nh_ex
 /* ---- deciding the case at points ---- */
 
 typedef struct {
-    size_t width, forms;  /* 1 + m + n; k */
+    size_t width, forms;                            /* 1 + m + n; k */
     double *gamma, *z, *first, *second, *form, *nu; /* values at one point */
-    double *b, *scale;    /* [Gamma, Z], and what its components are made of */
-    const double *unit;   /* of (t, q, w): components without units compare */
-    double pace;          /* how fast the state moves there, in those of the chart's box per unit of time */
+    double *b, *scale;                              /* [Gamma, Z], and what its components are made of */
+    const double *unit;                             /* of (t, q, w): components without units compare */
+    double pace; /* how fast the state moves there, in those of the chart's box per unit of time */
 } local;
 
 /* The size of the terms of the bracket, and of the rate with which Z changes: a smaller difference is rounding. */

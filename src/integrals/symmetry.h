@@ -19,17 +19,17 @@ enum { NH_SYMMETRY_LENGTHY = 200 };
 
 typedef struct {
     nh_ex phi, Z0;
-    nh_ex *zeta, *W;          /* n */
-    nh_field field;           /* components in the chart: d/dt, d/dq (m), d/dw (n) */
-    nh_ex *coordinate_rate;   /* m: Z(rho^s), the component along d/dx' of a coordinate chart */
-    bool along_motion;        /* Z = Z^0 Gamma + relative is much shorter, as for symmetries of evolutionary form */
-    nh_field relative;        /* then: the components of Z - Z^0 Gamma; time is 0 */
-    nh_ex *relative_rate;     /* and those along d/dx' of a coordinate chart */
-    nh_field bracket;         /* [Gamma, Z] */
-    nh_ex *bracket_form;      /* k: i_[Gamma,Z] phi^a */
+    nh_ex *zeta, *W;        /* n */
+    nh_field field;         /* components in the chart: d/dt, d/dq (m), d/dw (n) */
+    nh_ex *coordinate_rate; /* m: Z(rho^s), the component along d/dx' of a coordinate chart */
+    bool along_motion;      /* Z = Z^0 Gamma + relative is much shorter, as for symmetries of evolutionary form */
+    nh_field relative;      /* then: the components of Z - Z^0 Gamma; time is 0 */
+    nh_ex *relative_rate;   /* and those along d/dx' of a coordinate chart */
+    nh_field bracket;       /* [Gamma, Z] */
+    nh_ex *bracket_form;    /* k: i_[Gamma,Z] phi^a */
     bool bracket_in_distribution, projectable;
-    int kase;                 /* 1, 2, 3; 0 when it could not be decided */
-    double noether_residual;  /* largest relative residual of (N0), (NX), (NY) over the points */
+    int kase;                /* 1, 2, 3; 0 when it could not be decided */
+    double noether_residual; /* largest relative residual of (N0), (NX), (NY) over the points */
 } nh_symmetry;
 
 /* Expressions belong to the model's graph, arrays to its arena.  Fails where Lbar vanishes identically. `same`:

@@ -98,8 +98,12 @@ static bool integrate(parts *x, size_t s)
     memcpy(constant, x->o->parameter, constants * sizeof *constant);
     for (size_t r = 0; r <= x->m; r++)
         if (r != s) constant[constants++] = r < x->m ? y->coordinate[r].q : y->t;
-    nh_integration along = {.dag = x->d, .x = y->coordinate[s].q, .constants = constants, .constant = constant,
-                            .max_terms = most_terms, .sign = unknown_sign};
+    nh_integration along = {.dag = x->d,
+                            .x = y->coordinate[s].q,
+                            .constants = constants,
+                            .constant = constant,
+                            .max_terms = most_terms,
+                            .sign = unknown_sign};
     for (size_t i = 0; i < count && count <= most_terms && !nh_is_zero(x->d, x->a[s]); i++) {
         nh_ex F;
         found |= nh_antiderivative(&along, term[i], &F) && take_away(x, F);

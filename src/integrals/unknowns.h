@@ -15,23 +15,23 @@ typedef struct {
 } nh_unknown;
 
 typedef struct {
-    double *value;      /* one per unknown */
-    double quotient;    /* generalized singular value at the hit */
-    size_t dimension;   /* dimension of the null space at the hit */
+    double *value;    /* one per unknown */
+    double quotient;  /* generalized singular value at the hit */
+    size_t dimension; /* dimension of the null space at the hit */
     bool by_pencil, by_search;
-    double difference;  /* |pencil - search| / |value| when both found it */
+    double difference; /* |pencil - search| / |value| when both found it */
 } nh_hit;
 
 typedef struct {
     nh_arena *arena;
     size_t unknowns, count;
-    nh_hit *hit;            /* ascending in the first unknown */
-    size_t generic;         /* null dimension for generic theta */
-    long evaluations;       /* number of evaluations of the search's objective */
-    double best;            /* the smallest value of the objective */
+    nh_hit *hit;      /* ascending in the first unknown */
+    size_t generic;   /* null dimension for generic theta */
+    long evaluations; /* number of evaluations of the search's objective */
+    double best;      /* the smallest value of the objective */
     /* the box cut into so many equal parts along each unknown, and how many of the parts hold an evaluation */
     size_t parts, visited;
-    bool pencil_applied;    /* the ansatz has the form that the pencil needs */
+    bool pencil_applied; /* the ansatz has the form that the pencil needs */
 } nh_hits;
 
 /* All hits in the intervals of the unknowns.  The caller frees the result.  NULL with an error. */

@@ -12,7 +12,8 @@
 
 const nh_answer_kind *nh_answer_kind_of(const char *command)
 {
-#define X(name) if (!strcmp(command, #name)) return &nh_answer_##name;
+#define X(name)                                                                                                        \
+    if (!strcmp(command, #name)) return &nh_answer_##name;
     NH_ANSWER_TABLE(X)
 #undef X
     return NULL;
@@ -20,10 +21,10 @@ const nh_answer_kind *nh_answer_kind_of(const char *command)
 
 static nh_answer begun(const nh_answer_kind *kind, const nh_request *q)
 {
-    return (nh_answer){.kind = kind,
-                       .request = q,
-                       .run = {q->line, q->system_path, q->analysis_path, q->options.seed, q->options.shown, NAN,
-                               q->system_words}};
+    return (nh_answer){
+        .kind = kind,
+        .request = q,
+        .run = {q->line, q->system_path, q->analysis_path, q->options.seed, q->options.shown, NAN, q->system_words}};
 }
 
 bool nh_answer_create(nh_answer *a, const nh_request *q, nh_error *error)

@@ -49,7 +49,14 @@ static int benchmark_code(const nh_answer *a, nh_error *error)
     return (int)error->code;
 }
 
-const nh_answer_kind nh_answer_benchmark = {
-    .name = "benchmark", .analysis = true, .check = benchmark_check, .create = benchmark, .free = benchmark_free,
-    .write = benchmark_write, .json = benchmark_json, .table = benchmark_table, .table_name = "runs.csv",
-    .picture = benchmark_picture, .code = benchmark_code};
+const nh_answer_kind nh_answer_benchmark = {.name = "benchmark",
+                                            .analysis = true,
+                                            .check = benchmark_check,
+                                            .create = benchmark,
+                                            .free = benchmark_free,
+                                            .write = benchmark_write,
+                                            .json = benchmark_json,
+                                            .table = benchmark_table,
+                                            .table_name = "runs.csv",
+                                            .picture = benchmark_picture,
+                                            .code = benchmark_code};

@@ -5,7 +5,7 @@
 #include "commands/simulate.h"
 #include "library/answer.h"
 
-#define NH_ANSWER_TABLE(X) \
+#define NH_ANSWER_TABLE(X)                                                                                             \
     X(analyze) X(verify) X(simulate) X(benchmark) X(reduce) X(classify) X(scan) X(export) X(linearize)
 #define X(name) extern const nh_answer_kind nh_answer_##name;
 NH_ANSWER_TABLE(X)

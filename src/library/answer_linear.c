@@ -13,9 +13,13 @@ static bool linearize_check(const nh_request *q, nh_error *error)
 static bool linearize(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
-    nh_linearize_request request = {.system_path = q->system_path, .settings = q->settings, .setting = q->setting,
-                                    .at = q->initial, .over = q->overs ? q->over_list[0] : q->over,
-                                    .project = q->project, .options = q->options};
+    nh_linearize_request request = {.system_path = q->system_path,
+                                    .settings = q->settings,
+                                    .setting = q->setting,
+                                    .at = q->initial,
+                                    .over = q->overs ? q->over_list[0] : q->over,
+                                    .project = q->project,
+                                    .options = q->options};
     return (a->part[0] = nh_linearize_create(&request, error)) != NULL;
 }
 
@@ -45,7 +49,14 @@ static int linearized_code(const nh_answer *a, nh_error *error)
     return nh_answer_code(x->partial, error);
 }
 
-const nh_answer_kind nh_answer_linearize = {
-    .name = "linearize", .check = linearize_check, .create = linearize, .free = linearized_free,
-    .write = linearized_write, .json = linearized_json, .table = linearized_table, .table_name = "eigenvalues.csv",
-    .files = linearized_files, .picture = linearized_picture, .code = linearized_code};
+const nh_answer_kind nh_answer_linearize = {.name = "linearize",
+                                            .check = linearize_check,
+                                            .create = linearize,
+                                            .free = linearized_free,
+                                            .write = linearized_write,
+                                            .json = linearized_json,
+                                            .table = linearized_table,
+                                            .table_name = "eigenvalues.csv",
+                                            .files = linearized_files,
+                                            .picture = linearized_picture,
+                                            .code = linearized_code};

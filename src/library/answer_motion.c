@@ -17,15 +17,30 @@ typedef struct {
 nh_simulate_request nh_answer_motion(const nh_request *q)
 {
     static const double usual_spread = 0.1;
-    return (nh_simulate_request){.system_path = q->system_path, .analysis_path = q->analysis_path,
-                                 .settings = q->settings, .setting = q->setting, .chart = q->velocities,
-                                 .initial = q->initial, .from = q->from, .project = q->project, .step = q->step,
-                                 .watch = q->watch, .event = q->event, .section = q->section, .axes = q->axes,
-                                 .scene = q->scene, .draw = q->draw, .picture = q->picture,
-                                 .method = q->methods ? q->method[0] : NULL, .methods = q->methods, .only = q->method,
-                                 .accuracy = q->accuracy, .ensemble = q->ensemble,
+    return (nh_simulate_request){.system_path = q->system_path,
+                                 .analysis_path = q->analysis_path,
+                                 .settings = q->settings,
+                                 .setting = q->setting,
+                                 .chart = q->velocities,
+                                 .initial = q->initial,
+                                 .from = q->from,
+                                 .project = q->project,
+                                 .step = q->step,
+                                 .watch = q->watch,
+                                 .event = q->event,
+                                 .section = q->section,
+                                 .axes = q->axes,
+                                 .scene = q->scene,
+                                 .draw = q->draw,
+                                 .picture = q->picture,
+                                 .method = q->methods ? q->method[0] : NULL,
+                                 .methods = q->methods,
+                                 .only = q->method,
+                                 .accuracy = q->accuracy,
+                                 .ensemble = q->ensemble,
                                  .spread = q->spread > 0 ? q->spread : usual_spread,
-                                 .until_given = q->until_given, .tolerance_given = q->tolerance_given,
+                                 .until_given = q->until_given,
+                                 .tolerance_given = q->tolerance_given,
                                  .options = q->options};
 }
 
@@ -83,10 +98,9 @@ static bool run_series(nh_answer *a, const nh_simulate_request *q, const nh_simu
     series *all = nh_alloc(sizeof *all);
     *all = (series){.root = a->request->json ? nh_json_object() : NULL};
     nh_text_init(&all->table);
-    bool   complete = true;
+    bool complete = true;
     size_t done = 0;
-    while (done < rows->count && !nh_interrupted() &&
-           run_row(a, *q, done, &rows->row[done], all, &complete, error))
+    while (done < rows->count && !nh_interrupted() && run_row(a, *q, done, &rows->row[done], all, &complete, error))
         done++;
     a->failed = done < rows->count && !nh_interrupted();
     if (done < rows->count && nh_interrupted()) {
@@ -153,8 +167,7 @@ static bool simulate(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
     nh_simulate_request request = nh_answer_motion(q);
-    if (q->table || q->overs)
-        return run_table(a, &request, q->table ? q->table : write_combinations(q, error), error);
+    if (q->table || q->overs) return run_table(a, &request, q->table ? q->table : write_combinations(q, error), error);
     return (a->part[0] = nh_simulation_create(&request, error)) != NULL;
 }
 
@@ -290,8 +303,18 @@ static int simulation_code(const nh_answer *a, nh_error *error)
     return nh_answer_code(false, error);
 }
 
-const nh_answer_kind nh_answer_simulate = {
-    .name = "simulate", .analysis = true, .check = simulate_check, .create = simulate, .free = simulation_free,
-    .write = simulation_write, .json = simulation_json, .print = simulation_print, .tabular = true, .table = simulation_table,
-    .table_name = "motion.csv", .files = simulation_files, .picture = simulation_picture, .notes = simulation_notes,
-    .code = simulation_code};
+const nh_answer_kind nh_answer_simulate = {.name = "simulate",
+                                           .analysis = true,
+                                           .check = simulate_check,
+                                           .create = simulate,
+                                           .free = simulation_free,
+                                           .write = simulation_write,
+                                           .json = simulation_json,
+                                           .print = simulation_print,
+                                           .tabular = true,
+                                           .table = simulation_table,
+                                           .table_name = "motion.csv",
+                                           .files = simulation_files,
+                                           .picture = simulation_picture,
+                                           .notes = simulation_notes,
+                                           .code = simulation_code};

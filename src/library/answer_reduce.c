@@ -30,10 +30,19 @@ static bool reduce_check(const nh_request *q, nh_error *error)
 static bool reduce(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
-    nh_reduce_request request = {.system_path = q->system_path, .settings = q->settings, .setting = q->setting,
-                                 .chart = q->velocities, .initial = q->initial, .project = q->project,
-                                 .weak = q->weak, .group = q->group, .chain = q->chain, .inner = q->inner,
-                                 .accuracy = q->accuracy, .equations = q->equations, .options = q->options};
+    nh_reduce_request request = {.system_path = q->system_path,
+                                 .settings = q->settings,
+                                 .setting = q->setting,
+                                 .chart = q->velocities,
+                                 .initial = q->initial,
+                                 .project = q->project,
+                                 .weak = q->weak,
+                                 .group = q->group,
+                                 .chain = q->chain,
+                                 .inner = q->inner,
+                                 .accuracy = q->accuracy,
+                                 .equations = q->equations,
+                                 .options = q->options};
     return (a->part[0] = nh_reduction_create(&request, error)) != NULL;
 }
 
@@ -105,9 +114,15 @@ static int reduction_code(const nh_answer *a, nh_error *error)
     return nh_answer_code(r->partial, error);
 }
 
-const nh_answer_kind nh_answer_reduce = {
-    .name = "reduce", .check = reduce_check, .create = reduce, .free = reduction_free, .write = reduction_write,
-    .json = reduction_json, .print = reduction_print, .table = reduction_table, .code = reduction_code};
+const nh_answer_kind nh_answer_reduce = {.name = "reduce",
+                                         .check = reduce_check,
+                                         .create = reduce,
+                                         .free = reduction_free,
+                                         .write = reduction_write,
+                                         .json = reduction_json,
+                                         .print = reduction_print,
+                                         .table = reduction_table,
+                                         .code = reduction_code};
 
 /* ---- export ---- */
 
@@ -141,10 +156,19 @@ static void export_free(nh_answer *a) { nh_export_free(a->part[0]); }
 static bool export(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
-    nh_export_request request = {.command = q->line, .system_path = q->system_path, .settings = q->settings,
-                                 .setting = q->setting, .chart = q->velocities, .initial = q->initial,
-                                 .group = q->group, .weak = q->weak, .of = q->of, .input = q->input,
-                                 .to = q->to, .name = q->name, .options = q->options};
+    nh_export_request request = {.command = q->line,
+                                 .system_path = q->system_path,
+                                 .settings = q->settings,
+                                 .setting = q->setting,
+                                 .chart = q->velocities,
+                                 .initial = q->initial,
+                                 .group = q->group,
+                                 .weak = q->weak,
+                                 .of = q->of,
+                                 .input = q->input,
+                                 .to = q->to,
+                                 .name = q->name,
+                                 .options = q->options};
     const char *prefix;
     nh_export *x = nh_export_create(&request, error);
     a->part[0] = x;
@@ -198,6 +222,12 @@ static int export_code(const nh_answer *a, nh_error *error)
     return nh_answer_code(x->partial, error);
 }
 
-const nh_answer_kind nh_answer_export = {
-    .name = "export", .check = export_check, .create = export, .free = export_free, .write = export_write,
-    .json = export_json, .print = export_print, .files = export_files, .code = export_code};
+const nh_answer_kind nh_answer_export = {.name = "export",
+                                         .check = export_check,
+                                         .create = export,
+                                         .free = export_free,
+                                         .write = export_write,
+                                         .json = export_json,
+                                         .print = export_print,
+                                         .files = export_files,
+                                         .code = export_code};

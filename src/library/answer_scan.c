@@ -13,15 +13,29 @@ static bool scan(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
     nh_scan_source *source = nh_arena_alloc(q->arena, sizeof *source); /* the scan refers to it */
-    nh_scan_request request = {.system_path = q->system_path, .settings = q->settings, .setting = q->setting,
-                               .axes = q->overs, .over = q->over_list, .source = source, .options = q->options,
-                               .program = q->program, .folder = q->folder, .chunk = q->chunk, .chunks = q->chunks,
-                               .workers = q->workers, .begin_worker = q->begin_worker, .team = q->team};
+    nh_scan_request request = {.system_path = q->system_path,
+                               .settings = q->settings,
+                               .setting = q->setting,
+                               .axes = q->overs,
+                               .over = q->over_list,
+                               .source = source,
+                               .options = q->options,
+                               .program = q->program,
+                               .folder = q->folder,
+                               .chunk = q->chunk,
+                               .chunks = q->chunks,
+                               .workers = q->workers,
+                               .begin_worker = q->begin_worker,
+                               .team = q->team};
     bool shared = q->team && q->team->size > 1;
     if (!request.workers || shared) request.workers = 1;
     if ((shared || request.workers > 1) && !request.options.threads) request.options.threads = 1;
-    nh_scan_numbers_request numbers = {.of = q->of, .names = q->numbers, .name = q->number,
-                                       .system_path = q->system_path, .settings = q->settings, .setting = q->setting,
+    nh_scan_numbers_request numbers = {.of = q->of,
+                                       .names = q->numbers,
+                                       .name = q->number,
+                                       .system_path = q->system_path,
+                                       .settings = q->settings,
+                                       .setting = q->setting,
                                        .options = request.options};
     if (!nh_scan_numbers(q->arena, &numbers, source, error)) return false;
     nh_scan *x = nh_scan_create(&request, error);
@@ -52,8 +66,10 @@ static void scan_notes(const nh_answer *a, bool verbose, bool printed, nh_text *
     const nh_scan *x = a->part[0];
     (void)verbose, (void)printed;
     if (x->deaths)
-        nh_text_addf(out, "nhsym: %zu time%s a worker ended early, and what it had begun was computed again; the last "
-                     "time %s\n", x->deaths, x->deaths == 1 ? "" : "s", x->death);
+        nh_text_addf(out,
+                     "nhsym: %zu time%s a worker ended early, and what it had begun was computed again; the last "
+                     "time %s\n",
+                     x->deaths, x->deaths == 1 ? "" : "s", x->death);
 }
 
 static int scan_code(const nh_answer *a, nh_error *error)
@@ -71,6 +87,12 @@ static int scan_code(const nh_answer *a, nh_error *error)
     return error->code;
 }
 
-const nh_answer_kind nh_answer_scan = {
-    .name = "scan", .create = scan, .free = scan_free, .write = scan_write, .json = scan_json, .table = scan_table,
-    .table_name = "scan.csv", .notes = scan_notes, .code = scan_code};
+const nh_answer_kind nh_answer_scan = {.name = "scan",
+                                       .create = scan,
+                                       .free = scan_free,
+                                       .write = scan_write,
+                                       .json = scan_json,
+                                       .table = scan_table,
+                                       .table_name = "scan.csv",
+                                       .notes = scan_notes,
+                                       .code = scan_code};

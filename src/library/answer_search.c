@@ -14,12 +14,20 @@
 static bool analyze(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
-    nh_analyze_request request = {.command = q->line, .system_path = q->system_path,
+    nh_analyze_request request = {.command = q->line,
+                                  .system_path = q->system_path,
                                   .system_words = q->system_words,
-                                  .analysis_path = q->analysis_path, .settings = q->settings, .setting = q->setting,
-                                  .chart = q->velocities, .options = q->options, .accuracy = q->accuracy,
-                                  .equations = q->equations, .no_figures = !q->documents, .seed_given = q->seed_given,
-                                  .samples_given = q->samples_given, .tolerance_given = q->tolerance_given,
+                                  .analysis_path = q->analysis_path,
+                                  .settings = q->settings,
+                                  .setting = q->setting,
+                                  .chart = q->velocities,
+                                  .options = q->options,
+                                  .accuracy = q->accuracy,
+                                  .equations = q->equations,
+                                  .no_figures = !q->documents,
+                                  .seed_given = q->seed_given,
+                                  .samples_given = q->samples_given,
+                                  .tolerance_given = q->tolerance_given,
                                   .until_given = q->until_given};
     return (a->part[0] = nh_analysis_create(&request, error)) != NULL;
 }
@@ -45,9 +53,13 @@ static int analysis_code(const nh_answer *a, nh_error *error)
     return nh_answer_code(result->partial, error);
 }
 
-const nh_answer_kind nh_answer_analyze = {
-    .name = "analyze", .analysis = true, .create = analyze, .free = analysis_free, .write = analysis_write,
-    .json = analysis_json, .code = analysis_code};
+const nh_answer_kind nh_answer_analyze = {.name = "analyze",
+                                          .analysis = true,
+                                          .create = analyze,
+                                          .free = analysis_free,
+                                          .write = analysis_write,
+                                          .json = analysis_json,
+                                          .code = analysis_code};
 
 /* ---- verify ---- */
 
@@ -100,9 +112,13 @@ static int verification_code(const nh_answer *a, nh_error *error)
     return v->conserved ? NH_OK : NH_REFUTED;
 }
 
-const nh_answer_kind nh_answer_verify = {
-    .name = "verify", .check = verify_check, .create = verify, .free = verification_free, .write = verification_write,
-    .json = verification_json, .code = verification_code};
+const nh_answer_kind nh_answer_verify = {.name = "verify",
+                                         .check = verify_check,
+                                         .create = verify,
+                                         .free = verification_free,
+                                         .write = verification_write,
+                                         .json = verification_json,
+                                         .code = verification_code};
 
 /* ---- classify ---- */
 
@@ -150,8 +166,12 @@ static bool read_question(const nh_request *q, nh_classify_request *out, nh_erro
 
 static bool read_classify(const nh_request *q, nh_classify_request *out, nh_error *error)
 {
-    *out = (nh_classify_request){.command = q->line, .system_path = q->system_path, .settings = q->settings,
-                                 .setting = q->setting, .shape = q->shape, .options = q->options};
+    *out = (nh_classify_request){.command = q->line,
+                                 .system_path = q->system_path,
+                                 .settings = q->settings,
+                                 .setting = q->setting,
+                                 .shape = q->shape,
+                                 .options = q->options};
     return read_names(q, out, error) && read_question(q, out, error);
 }
 
@@ -203,6 +223,10 @@ static int classified_code(const nh_answer *a, nh_error *error)
     return nh_answer_code(line ? line->partial : plane ? plane->partial : space->partial, error);
 }
 
-const nh_answer_kind nh_answer_classify = {
-    .name = "classify", .check = classify_check, .create = classify, .free = classified_free,
-    .write = classified_write, .json = classified_json, .code = classified_code};
+const nh_answer_kind nh_answer_classify = {.name = "classify",
+                                           .check = classify_check,
+                                           .create = classify,
+                                           .free = classified_free,
+                                           .write = classified_write,
+                                           .json = classified_json,
+                                           .code = classified_code};

@@ -186,7 +186,7 @@ enum { list_count = sizeof lists / sizeof *lists };
    begin like this? */
 static bool explain_beginning(const char *word, nh_text *out)
 {
-    bool   found = false;
+    bool found = false;
     size_t length = strlen(word);
     for (size_t i = 0; i < nh_glossary_count(); i++) {
         nh_glossary_entry topic = nh_glossary_at(i);
@@ -288,7 +288,6 @@ void nh_catalogue_values(const char *name, const char *command, const char *betw
     } else if (!strcmp(name, "explain")) {
         nh_text_addf(out, "options%smethods", between);
         for (size_t i = 0; i < nh_glossary_count(); i++)
-            if (!strchr(nh_glossary_at(i).word, ' '))
-                nh_text_addf(out, "%s%s", between, nh_glossary_at(i).word);
+            if (!strchr(nh_glossary_at(i).word, ' ')) nh_text_addf(out, "%s%s", between, nh_glossary_at(i).word);
     }
 }

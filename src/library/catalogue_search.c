@@ -30,8 +30,8 @@ static const char *constraints_of(nh_system *s, nh_arena *arena)
     nh_model *model = chart ? nh_model_create(s, chart, &trouble) : NULL;
     if (!model) return "";
     nh_distribution d = nh_distribution_of(model);
-    const char *words = nh_arena_printf(arena, "%s, %s", nh_constraint_type_name(d.type),
-                                        nh_constraint_integrability(model, &d));
+    const char *words =
+        nh_arena_printf(arena, "%s, %s", nh_constraint_type_name(d.type), nh_constraint_integrability(model, &d));
     if (d.type == NH_UNCONSTRAINED) words = "no constraints";
     nh_model_free(model);
     return words;

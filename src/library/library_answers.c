@@ -142,7 +142,9 @@ static void write_code(void *argument)
     coding *c = argument;
     const nh_export *x = c->export;
     const nh_request request = {.command = "export", .to = x->to, .name = x->name};
-    const nh_answer a = {.kind = nh_answer_kind_of(request.command), .request = &request, .part = {(void *)x},
+    const nh_answer a = {.kind = nh_answer_kind_of(request.command),
+                         .request = &request,
+                         .part = {(void *)x},
                          .run = {.seed = x->seed, .seconds = NAN}};
     nh_answer_file file[NH_ANSWER_FILES] = {{NULL}};
     size_t files = 1;
@@ -202,7 +204,9 @@ static void write_document(void *argument)
     nh_format format = w->format;
     const nh_request request = {.to = !strcmp(w->command, "reduce") && format == NH_FORMAT_LATEX ? "latex" : NULL,
                                 .folder = ""};
-    const nh_answer a = {.kind = nh_answer_kind_of(w->command), .request = &request, .part = {w->result},
+    const nh_answer a = {.kind = nh_answer_kind_of(w->command),
+                         .request = &request,
+                         .part = {w->result},
                          .run = {.seed = w->seed, .shown = shown, .seconds = NAN}};
     bool table = request.to || (format == NH_FORMAT_TEXT && a.kind->print);
     if (format == NH_FORMAT_JSON) w->text = a.kind->json(&a);

@@ -8,7 +8,7 @@
 typedef struct {
     size_t inputs, count; /* 1 + 2 m; states */
     const double *t, *q, *v;
-    const double **in;    /* of the batch */
+    const double **in;     /* of the batch */
     double zero[NH_BATCH]; /* the time where none is given */
 } nh_columns;
 

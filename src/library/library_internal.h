@@ -7,17 +7,17 @@
 #include "library/request.h"
 
 struct nh_problem {
-    nh_context  *context;
-    nh_context  *before; /* of the thread, while a computation goes on */
-    nh_arena    *arena;
-    nh_request   request; /* of every computation; its strings are in the arena */
+    nh_context *context;
+    nh_context *before; /* of the thread, while a computation goes on */
+    nh_arena *arena;
+    nh_request request;  /* of every computation; its strings are in the arena */
     nh_file_store files; /* that it has read */
-    nh_system   *system;
+    nh_system *system;
 };
 
 /* First in a function of nhsym.h: a caller may pass NULL in place of an error, but within the library there is one. */
-#define NH_OWN_ERROR(error)              \
-    nh_error own_error = {.code = NH_OK}; \
+#define NH_OWN_ERROR(error)                                                                                            \
+    nh_error own_error = {.code = NH_OK};                                                                              \
     if (!(error)) (error) = &own_error
 
 /* False: memory ended before the job did (base/recovery.h).  After that has happened once in a thread, it does further

@@ -231,8 +231,8 @@ nh_problem *nh_problem_open(nh_context *context, const nh_question *question, nh
     NH_OWN_ERROR(error);
     nh_error ignored;
     opening o = {.context = context, .question = question, .error = error ? error : &ignored};
-    if (nh_library_try(begin_problem, &o, o.error) && o.good &&
-        nh_problem_run(o.problem, read_problem, &o, o.error) && o.good)
+    if (nh_library_try(begin_problem, &o, o.error) && o.good && nh_problem_run(o.problem, read_problem, &o, o.error) &&
+        o.good)
         return o.problem;
     nh_problem_free(o.problem);
     return NULL;
@@ -264,10 +264,10 @@ static void drive(void *argument)
     size_t count = r->settings;
     r->setting = nh_arena_alloc(p->arena, (count + 1) * sizeof *r->setting);
     if (count) memcpy(r->setting, before, count * sizeof *before);
-    nh_system *system = nh_request_input(r, nh_arena_strdup(p->arena, d->parameter),
-                                         nh_arena_strdup(p->arena, d->input), d->error)
-                            ? nh_system_read(r->system_path, r->settings, r->setting, d->error)
-                            : NULL;
+    nh_system *system =
+        nh_request_input(r, nh_arena_strdup(p->arena, d->parameter), nh_arena_strdup(p->arena, d->input), d->error)
+            ? nh_system_read(r->system_path, r->settings, r->setting, d->error)
+            : NULL;
     d->good = system != NULL;
     if (!system) {
         r->setting = before, r->settings = count, r->system_words = words;

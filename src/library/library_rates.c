@@ -7,9 +7,9 @@
 #include "library/library_internal.h"
 
 struct nh_rates {
-    nh_model    *model;
+    nh_model *model;
     nh_bordered *bordered;
-    nh_system   *system; /* its own: it remains without the problem */
+    nh_system *system; /* its own: it remains without the problem */
 };
 
 typedef struct {

@@ -98,7 +98,7 @@ static nh_tape *tape_of(const nh_analysis *a, size_t index)
     if (index >= a->count || !a->found[index].has_in_velocities) return NULL;
     const nh_system *s = a->system;
     size_t m = s->coordinates;
-    nh_ex  form = a->found[index].in_velocities, *in = nh_alloc_array(2 * m + 1, sizeof *in);
+    nh_ex form = a->found[index].in_velocities, *in = nh_alloc_array(2 * m + 1, sizeof *in);
     in[0] = s->t;
     for (size_t i = 0; i < m; i++) {
         in[1 + i] = s->coordinate[i].q;
@@ -204,7 +204,7 @@ static void draw(void *argument)
                     .path = x > 0,
                     .curves = 1,
                     .curve = &curve};
-    nh_text  text, words;
+    nh_text text, words;
     nh_text_init(&text);
     nh_text_init(&words);
     nh_text_addf(&words, "%s against %s", up, across);

@@ -18,28 +18,28 @@ typedef struct {
 } nh_request_piece;
 
 typedef struct {
-    nh_arena *arena;             /* of its strings */
-    const char *command, *line;  /* "analyze"; all that was typed, for reports */
+    nh_arena *arena;            /* of its strings */
+    const char *command, *line; /* "analyze"; all that was typed, for reports */
     const char *system_path, *analysis_path;
-    const char *system_words;    /* the system as typed, with its --wheel, --base, --on, --input, for a command line */
-    const char *typed;           /* inputs and functions of it that were typed before the system, or NULL */
+    const char *system_words; /* the system as typed, with its --wheel, --base, --on, --input, for a command line */
+    const char *typed;        /* inputs and functions of it that were typed before the system, or NULL */
     size_t settings;
     nh_setting *setting;
     nh_chart_choice velocities;
     nh_options options;
     bool limited, seed_given, samples_given, tolerance_given, until_given; /* in `options` */
-    bool documents, json, csv;   /* will be written: a document or a JSON; a JSON; a table */
-    bool draw;                   /* a document that draws the motion */
-    bool picture;                /* that, or a picture alone */
+    bool documents, json, csv; /* will be written: a document or a JSON; a JSON; a table */
+    bool draw;                 /* a document that draws the motion */
+    bool picture;              /* that, or a picture alone */
     /* additions to the system file */
     size_t wheels, ons;
     const char **wheel, *base, **on; /* --wheel, each; --base; --on, each */
-    const char *completed;       /* the text that adds them, or NULL */
+    const char *completed;           /* the text that adds them, or NULL */
     size_t pieces;
     nh_request_piece *piece;
     /* of motions */
-    const char *initial, *from;  /* "phi=0, omega=2"; where that is written, for messages (NULL: --initial) */
-    const char *table;           /* a file of initial states */
+    const char *initial, *from; /* "phi=0, omega=2"; where that is written, for messages (NULL: --initial) */
+    const char *table;          /* a file of initial states */
     const char *watch, *event, *section, *axes;
     size_t methods;
     const nh_method *const *method; /* one of a motion; of a comparison only these */
@@ -60,8 +60,8 @@ typedef struct {
     /* of scan */
     size_t numbers, chunk, chunks, workers;
     const char **number, *program;
-    const char *folder;          /* of scan, and of every command with -o */
-    const nh_team *team;         /* processes of one run on several machines */
+    const char *folder;  /* of scan, and of every command with -o */
+    const nh_team *team; /* processes of one run on several machines */
     void (*begin_worker)(void);
 } nh_request;
 

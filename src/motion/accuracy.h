@@ -29,9 +29,9 @@ typedef enum { NH_CHOICE_RACE, NH_CHOICE_GIVEN, NH_CHOICE_PILOT, NH_CHOICE_SHORT
 
 /* The integration plans that may be used. */
 typedef struct {
-    size_t count;                       /* plans by which a motion like this one was computed */
+    size_t count; /* plans by which a motion like this one was computed */
     const nh_integration_plan *way;
-    bool pilot;                         /* where none of these is good enough, other methods may be measured */
+    bool pilot; /* where none of these is good enough, other methods may be measured */
     /* number of further motions that will use the plan of this one: measuring then saves so many times more */
     double more;
     /* pilot runs measure only methods with error control, in the model's own velocities */
@@ -47,21 +47,21 @@ typedef struct {
     /* tolerance and step of the returned motion: one of them is NAN */
     double wanted, estimate, tolerance, step;
     nh_accuracy_choice choice;
-    bool measured;                      /* the method is the cheapest of the measured ones */
-    const nh_method *other;             /* if measured: the method of the second cheapest; NULL: there is none */
-    double next;                        /* and its work relative to that of the cheapest; NAN */
-    const char *second;                 /* the method that confirms the result; NULL: there was no doubt */
+    bool measured;          /* the method is the cheapest of the measured ones */
+    const nh_method *other; /* if measured: the method of the second cheapest; NULL: there is none */
+    double next;            /* and its work relative to that of the cheapest; NAN */
+    const char *second;     /* the method that confirms the result; NULL: there was no doubt */
     /* of the confirming run; INFINITY when there was none, or it could not compute the motion */
     double difference;
-    size_t quantity;                    /* index of the wanted expression with the largest estimated error */
-    double size;                        /* the largest value of this expression along the motion */
+    size_t quantity; /* index of the wanted expression with the largest estimated error */
+    double size;     /* the largest value of this expression along the motion */
     int runs;
-    long evaluations;                   /* of all runs, pilot runs included */
-    double effort;                      /* units of base/effort.h of all runs */
-    double seconds;                     /* of all runs, by the clock: for reports only */
+    long evaluations; /* of all runs, pilot runs included */
+    double effort;    /* units of base/effort.h of all runs */
+    double seconds;   /* of all runs, by the clock: for reports only */
     /* the plan of the returned motion, with its measured cost and its estimated error */
     nh_integration_plan way;
-    char why[512];                      /* the choice, or what failed, as a sentence */
+    char why[512]; /* the choice, or what failed, as a sentence */
 } nh_accuracy;
 
 /* The trajectory of the tightest run, also when the accuracy was not reached (held == false).  request->n must not be

@@ -5,11 +5,13 @@
 #include "motion/trajectory.h"
 
 /* How the error of a motion is judged by two runs of it. */
-enum { NH_ACCURACY_RUNS = 7 };                 /* largest number of runs */
-static const double nh_accuracy_loosest = 1e-5, nh_accuracy_tightest = 1e-14, /* tolerances */
-    nh_accuracy_first = 3,                     /* the first tolerance, as a multiple of eps */
-    nh_accuracy_step = 0.1,                    /* largest factor from one tolerance to the next */
-    nh_accuracy_exponent = 0.7,                /* the exponent with which differences fall, until it is measured */
+enum { NH_ACCURACY_RUNS = 7 }; /* largest number of runs */
+static const double
+    nh_accuracy_loosest = 1e-5,
+    nh_accuracy_tightest = 1e-14, /* tolerances */
+    nh_accuracy_first = 3,        /* the first tolerance, as a multiple of eps */
+    nh_accuracy_step = 0.1,       /* largest factor from one tolerance to the next */
+    nh_accuracy_exponent = 0.7,   /* the exponent with which differences fall, until it is measured */
     /* in eps: the largest difference of two runs at which the tighter one is accepted */
     nh_accuracy_far = 30,
     /* the same of the first two runs: where steps are so large that errors do not fall yet, both can err alike */

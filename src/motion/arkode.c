@@ -23,33 +23,33 @@
 /* These functions are common to all steppers since ARKODE 6.1, which comes with SUNDIALS 7.1. */
 #if NH_SUNDIALS_SINCE(7, 1)
 #define set_stop_time ARKodeSetStopTime
-#define evolve        ARKodeEvolve
+#define evolve ARKodeEvolve
 #define set_user_data ARKodeSetUserData
-#define tolerances    ARKodeWFtolerances
-#define free_memory   ARKodeFree
+#define tolerances ARKodeWFtolerances
+#define free_memory ARKodeFree
 #define set_most_fails ARKodeSetMaxErrTestFails
-#define reset         ARKodeReset
-#define solve_by      ARKodeSetLinearSolver
-#define set_jacobian  ARKodeSetJacFn
-#define jacobians_of  ARKodeGetNumJacEvals
-#define deduce_rates  ARKodeSetDeduceImplicitRhs
-#define newton_part   ARKodeSetNonlinConvCoef
-#define set_up_every  ARKodeSetLSetupFrequency
+#define reset ARKodeReset
+#define solve_by ARKodeSetLinearSolver
+#define set_jacobian ARKodeSetJacFn
+#define jacobians_of ARKodeGetNumJacEvals
+#define deduce_rates ARKodeSetDeduceImplicitRhs
+#define newton_part ARKodeSetNonlinConvCoef
+#define set_up_every ARKodeSetLSetupFrequency
 #define jacobian_of_every ARKodeSetJacEvalFrequency
 #else
 #define set_stop_time ARKStepSetStopTime
-#define evolve        ARKStepEvolve
+#define evolve ARKStepEvolve
 #define set_user_data ARKStepSetUserData
-#define tolerances    ARKStepWFtolerances
-#define free_memory   ARKStepFree
+#define tolerances ARKStepWFtolerances
+#define free_memory ARKStepFree
 #define set_most_fails ARKStepSetMaxErrTestFails
-#define reset         ARKStepReset
-#define solve_by      ARKStepSetLinearSolver
-#define set_jacobian  ARKStepSetJacFn
-#define jacobians_of  ARKStepGetNumJacEvals
-#define deduce_rates  ARKStepSetDeduceImplicitRhs
-#define newton_part   ARKStepSetNonlinConvCoef
-#define set_up_every  ARKStepSetLSetupFrequency
+#define reset ARKStepReset
+#define solve_by ARKStepSetLinearSolver
+#define set_jacobian ARKStepSetJacFn
+#define jacobians_of ARKStepGetNumJacEvals
+#define deduce_rates ARKStepSetDeduceImplicitRhs
+#define newton_part ARKStepSetNonlinConvCoef
+#define set_up_every ARKStepSetLSetupFrequency
 #define jacobian_of_every ARKStepSetJacEvalFrequency
 #endif
 
@@ -74,8 +74,8 @@ typedef struct {
     size_t count;
     nh_guards guards;
     nh_kinks kinks;
-    double *old;       /* the state before the last step, where guards are watched */
-    double each;       /* units of effort of a right-hand side, with the sums that belong to it */
+    double *old; /* the state before the last step, where guards are watched */
+    double each; /* units of effort of a right-hand side, with the sums that belong to it */
     long evaluations;
 } pairs_work;
 
@@ -98,9 +98,8 @@ static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
 static int call_weight(N_Vector state, N_Vector weight, void *user)
 {
     const pairs_work *work = user;
-    for (size_t i = 0; i < work->problem->size; i++)
-        NV_DATA_S(weight)
-        [i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
+    for (size_t i = 0; i < work->problem->size; i++) NV_DATA_S(weight)
+    [i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
     return nh_all_finite(work->problem->size, NV_DATA_S(weight)) ? 0 : -1;
 }
 

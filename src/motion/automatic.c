@@ -19,7 +19,7 @@ typedef struct {
     const nh_flow_options *options;
     const double *initial, *times;
     size_t count;
-    double begin, now;    /* units at the start; time of the last evaluation */
+    double begin, now; /* units at the start; time of the last evaluation */
     bool tried;
     /* the motion by BDF, complete or ended by a guard or at a singular place; NULL: BDF does not take over */
     nh_motion *stiff;
@@ -83,8 +83,7 @@ static bool give_up(void *context)
 /* A motion of the pair that ended before its work reached the limit: the steps or the digits did not suffice. */
 static bool may_be_stiff(const attempt *a, const nh_motion *motion)
 {
-    return motion && !a->tried && !motion->complete && motion->guard_hit < 0 && !motion->singular &&
-           !cancelled(a) &&
+    return motion && !a->tried && !motion->complete && motion->guard_hit < 0 && !motion->singular && !cancelled(a) &&
            !(a->options->effort > 0 && motion->effort > a->options->effort);
 }
 

@@ -67,10 +67,7 @@ typedef struct {
     long step, failed_step;
 } ida_work;
 
-static size_t terms_size(size_t m, size_t k)
-{
-    return m * m + m + k * m + 2 * k;
-}
+static size_t terms_size(size_t m, size_t k) { return m * m + m + k * m + 2 * k; }
 
 static bool terms_at(ida_work *work, double t, const double *q, const double *v)
 {
@@ -91,8 +88,7 @@ static void balance(const ida_work *work, const double *a, const double *mu, dou
     memcpy(out, work->h, m * sizeof *out);
     memcpy(out + m, work->problem->holds ? work->f : work->g, k * sizeof *out);
     for (size_t j = 0; j < m; j++) {
-        for (size_t i = 0; i < m; i++)
-            out[i] += work->K[i + j * m] * a[j];
+        for (size_t i = 0; i < m; i++) out[i] += work->K[i + j * m] * a[j];
         for (size_t c = 0; c < k; c++) {
             out[j] += work->F[c + j * k] * mu[c];
             if (!work->problem->holds) out[m + c] += work->F[c + j * k] * a[j];
@@ -169,13 +165,10 @@ static int call_residual(sunrealtype t, N_Vector state, N_Vector rate, N_Vector 
     const double *y = NV_DATA_S(state), *dy = NV_DATA_S(rate);
     double *r = NV_DATA_S(residual);
     size_t m = work->m;
-    if (!terms_at(work, t, y, y + m))
-        return 1; /* "recoverable": IDA tries a smaller step */
-    for (size_t i = 0; i < m; i++)
-        r[i] = dy[i] - y[m + i];
+    if (!terms_at(work, t, y, y + m)) return 1; /* "recoverable": IDA tries a smaller step */
+    for (size_t i = 0; i < m; i++) r[i] = dy[i] - y[m + i];
     balance(work, dy + m, y + 2 * m, r + m);
-    for (size_t i = 0; i < 2 * m + work->k; i++)
-        r[i] *= work->row[i];
+    for (size_t i = 0; i < 2 * m + work->k; i++) r[i] *= work->row[i];
     return 0;
 }
 
@@ -187,8 +180,7 @@ static void exact_blocks(const ida_work *work, double c, double *matrix)
     for (size_t j = 0; j < m; j++) {
         matrix[j + j * n] = c;
         matrix[j + (m + j) * n] = -1;
-        for (size_t i = 0; i < m; i++)
-            matrix[m + i + (m + j) * n] = c * work->K[i + j * m];
+        for (size_t i = 0; i < m; i++) matrix[m + i + (m + j) * n] = c * work->K[i + j * m];
         for (size_t a = 0; a < k; a++) {
             if (!work->problem->holds) matrix[2 * m + a + (m + j) * n] = c * work->F[a + j * k];
             matrix[m + j + (2 * m + a) * n] = work->F[a + j * k];
@@ -204,8 +196,7 @@ static double shift(ida_work *work, double t, const double *y, size_t j)
     for (int side = 1; side >= -1; side -= 2) {
         volatile double moved = y[j] + side * size; /* volatile: the shift must be the one that is stored */
         work->point[j] = moved;
-        if (terms_at(work, t, work->point, work->point + work->m))
-            return moved - y[j];
+        if (terms_at(work, t, work->point, work->point + work->m)) return moved - y[j];
     }
     return 0;
 }
@@ -217,20 +208,16 @@ static int call_jacobian(sunrealtype t, sunrealtype c, N_Vector state, N_Vector 
     ida_work *work = user;
     const double *y = NV_DATA_S(state), *a = NV_DATA_S(rate) + work->m;
     size_t m = work->m, n = 2 * m + work->k;
-    if (!terms_at(work, t, y, y + m))
-        return 1;
+    if (!terms_at(work, t, y, y + m)) return 1;
     exact_blocks(work, c, SM_DATA_D(matrix));
     balance(work, a, y + 2 * m, work->base);
     for (size_t j = 0; j < 2 * m; j++) {
         double moved = shift(work, t, y, j), *column = SM_DATA_D(matrix) + j * n + m;
-        if (moved == 0)
-            return 1;
+        if (moved == 0) return 1;
         balance(work, a, y + 2 * m, work->shifted);
-        for (size_t i = 0; i < n - m; i++)
-            column[i] += (work->shifted[i] - work->base[i]) / moved;
+        for (size_t i = 0; i < n - m; i++) column[i] += (work->shifted[i] - work->base[i]) / moved;
     }
-    for (size_t i = 0; i < n * n; i++)
-        SM_DATA_D(matrix)[i] *= work->row[i % n];
+    for (size_t i = 0; i < n * n; i++) SM_DATA_D(matrix)[i] *= work->row[i % n];
     work->jacobians++;
     return 0;
 }
@@ -252,8 +239,7 @@ static int call_weights(N_Vector state, N_Vector weight, void *user)
 static double bordered_rcond(ida_work *work, double t)
 {
     double *y = NV_DATA_S(work->state), *a = NV_DATA_S(work->rate) + work->m, rcond = 0;
-    if (terms_at(work, t, y, y + work->m))
-        solve_bordered(work, a, y + 2 * work->m, &rcond);
+    if (terms_at(work, t, y, y + work->m)) solve_bordered(work, a, y + 2 * work->m, &rcond);
     return rcond;
 }
 
@@ -275,8 +261,7 @@ static void explain(int flag, ida_work *work, nh_motion *motion)
             "reciprocal condition number %.2g there: if it is small, constraints become dependent, else the "
             "solution is singular",
             t, work->rtol, bordered_rcond(work, t));
-    else
-        nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->sundials.message);
+    else nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->sundials.message);
 }
 
 static nh_step ida_advance(double *time, nh_motion *motion, void *context)
@@ -288,8 +273,7 @@ static nh_step ida_advance(double *time, nh_motion *motion, void *context)
     int flag = IDASolve(work->ida, work->stop, time, work->state, work->rate, IDA_ONE_STEP);
     motion->evaluations = work->evaluations;
     motion->jacobians = work->jacobians;
-    if (flag >= 0)
-        return flag == IDA_TSTOP_RETURN ? NH_STEP_LAST : NH_STEP_ON;
+    if (flag >= 0) return flag == IDA_TSTOP_RETURN ? NH_STEP_LAST : NH_STEP_ON;
     explain(flag, work, motion);
     return NH_STEP_FAILED;
 }
@@ -297,28 +281,22 @@ static nh_step ida_advance(double *time, nh_motion *motion, void *context)
 static bool ida_state(double time, double *state, void *context)
 {
     ida_work *work = context;
-    if (IDAGetDky(work->ida, time, 0, work->state) != IDA_SUCCESS)
-        return false;
+    if (IDAGetDky(work->ida, time, 0, work->state) != IDA_SUCCESS) return false;
     memcpy(state, NV_DATA_S(work->state), (2 * work->m + work->k) * sizeof *state);
     return true;
 }
 
-static void ida_stuck(nh_motion *motion, void *context)
-{
-    explain(IDA_ERR_FAIL, context, motion);
-}
+static void ida_stuck(nh_motion *motion, void *context) { explain(IDA_ERR_FAIL, context, motion); }
 
 static bool create_objects(ida_work *work)
 {
     sunindextype size = (sunindextype)(2 * work->m + work->k);
-    if (!nh_sundials_open(&work->sundials))
-        return false;
+    if (!nh_sundials_open(&work->sundials)) return false;
     work->state = N_VNew_Serial(size, work->sundials.context);
     work->rate = N_VNew_Serial(size, work->sundials.context);
     work->differential = N_VNew_Serial(size, work->sundials.context);
     work->matrix = SUNDenseMatrix(size, size, work->sundials.context);
-    if (!work->state || !work->rate || !work->differential || !work->matrix)
-        return false;
+    if (!work->state || !work->rate || !work->differential || !work->matrix) return false;
     N_VConst(0, work->rate);
     work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials.context);
     work->ida = IDACreate(work->sundials.context);
@@ -339,8 +317,7 @@ static void create_arrays(ida_work *work, const double *scale)
     work->scale = nh_alloc_array(2 * (2 * m + k), sizeof(double));
     work->row = work->scale + 2 * m + k;
     work->saddle = nh_alloc_array(nh_saddle_work(m, k), sizeof(double));
-    for (size_t i = 0; i < 2 * m; i++)
-        work->scale[i] = scale ? scale[i] : 1.0;
+    for (size_t i = 0; i < 2 * m; i++) work->scale[i] = scale ? scale[i] : 1.0;
 }
 
 static bool leave_multipliers_out(ida_work *work)
@@ -382,8 +359,7 @@ static void destroy_work(ida_work *work)
 static void enter_start(nh_motion *motion, const ida_work *work)
 {
     size_t size = motion->size * sizeof(double);
-    for (size_t i = 0; i < motion->count; i++)
-        memcpy(motion->state + i * motion->size, NV_DATA_S(work->state), size);
+    for (size_t i = 0; i < motion->count; i++) memcpy(motion->state + i * motion->size, NV_DATA_S(work->state), size);
     memcpy(motion->end_state, NV_DATA_S(work->state), size);
 }
 
@@ -415,8 +391,7 @@ static bool integrate(ida_work *work, nh_motion *motion, const double *initial, 
     bool created = create_objects(work);
     if (created && !make_consistent(work, times[0], initial, NV_DATA_S(work->state), NV_DATA_S(work->rate), error))
         return false;
-    if (!created || !set_up(work, times[0]))
-        return nh_sundials_fail(&work->sundials, error);
+    if (!created || !set_up(work, times[0])) return nh_sundials_fail(&work->sundials, error);
     enter_start(motion, work);
     nh_stepper stepper = {.context = work, .advance = ida_advance, .state = ida_state, .stuck = ida_stuck};
     nh_motion_run(motion, count, times, options, &stepper);
@@ -428,8 +403,7 @@ nh_chetaev_motion *nh_chetaev(const nh_chetaev_problem *problem, const double *i
 {
     size_t m = problem->coordinates, k = problem->constraints;
     nh_motion *motion = nh_motion_start(2 * m + k, 2 * m, initial, count, times, options, error);
-    if (!motion)
-        return NULL;
+    if (!motion) return NULL;
     ida_work work = {
         .problem = problem, .m = m, .k = k, .stop = times[count - 1], .rtol = nh_motion_rtol(motion, options)};
     nh_chetaev_motion *result = NULL;
@@ -445,8 +419,7 @@ nh_chetaev_motion *nh_chetaev(const nh_chetaev_problem *problem, const double *i
 
 void nh_chetaev_motion_free(nh_chetaev_motion *motion)
 {
-    if (!motion)
-        return;
+    if (!motion) return;
     nh_motion_free(motion->motion);
     nh_free(motion);
 }

@@ -29,7 +29,7 @@ typedef struct {
 } nh_chetaev_problem;
 
 typedef struct {
-    nh_motion *motion;   /* state: q (m), v (m), mu (k) */
+    nh_motion *motion; /* state: q (m), v (m), mu (k) */
     /* max_a,t |f^a| along the output points, relative to |df^a/dv_s| and the size of v_s: its scale, or |v_s| where
        that is larger */
     double violation;

@@ -12,7 +12,7 @@
 /* least slope of a current relative to its slope at the start: below it the state that it determines loses digits */
 static const double smallest_slope = 0.03;
 
-static const double same_rows = 1e-9;      /* relative difference of two forms of one row that counts as rounding */
+static const double same_rows = 1e-9; /* relative difference of two forms of one row that counts as rounding */
 
 /* error of a state that is zero at the start, as a part of the current over its slope, that counts as rounding */
 static const double rounding = 1e-13;
@@ -184,7 +184,7 @@ struct nh_closed_subsystem_run {
     nh_tape_work *rate, *jacobian, *removed, *wall;
     const nh_flow_problem *whole;
     double *point; /* (t, q, w, u, c): dropped states at their initial values, implicit velocities at their last ones */
-    long failed;           /* the level that does not determine its state; -1: none */
+    long failed;   /* the level that does not determine its state; -1: none */
     double *level, *slope; /* the states that currents determine, then the slopes; the slopes at the start */
 };
 

@@ -21,7 +21,7 @@ typedef struct {
     size_t levels;                  /* states that conserved currents determine */
     size_t *state; /* states, as indices into (q, w): the core, then the quadratures in an order in which they can be
                                        integrated, then those that currents determine, then those dropped */
-    bool implicit;                  /* the equations contain implicit velocities */
+    bool implicit; /* the equations contain implicit velocities */
     /* equations and watched expressions are analytic in all kept states: the end of a chart does not end the motion */
     bool smooth;
     nh_dependency_graph graph;
@@ -30,9 +30,9 @@ typedef struct {
     nh_tape *rate, *jacobian;
     /* values and slopes of the levels over the same points; the currents over (t, q, w, u) */
     nh_tape *removed, *currents;
-    size_t walls;                   /* walls of the rates of the kept states (exact/walls.h) */
-    nh_tape *wall;                  /* over the same points as rate; NULL: there are none */
-    nh_tape *rate_of_all;           /* rates of all states, over (t, q, w, u) */
+    size_t walls;                             /* walls of the rates of the kept states (exact/walls.h) */
+    nh_tape *wall;                            /* over the same points as rate; NULL: there are none */
+    nh_tape *rate_of_all;                     /* rates of all states, over (t, q, w, u) */
     size_t instructions, instructions_of_all; /* of the right-hand sides */
 } nh_closed_subsystem;
 

@@ -46,7 +46,7 @@ typedef struct {
     /* across a wall: the motion of the last step by a one-step method, behind which the next step starts anew; else
      * NULL */
     nh_motion *across;
-    double *old;       /* the state before a step */
+    double *old; /* the state before a step */
     size_t count;
     const double *times;
     SUNMatrix matrix;
@@ -97,9 +97,8 @@ static int call_jacobian(sunrealtype t, N_Vector state, N_Vector rate, SUNMatrix
 static int call_weight(N_Vector state, N_Vector weight, void *user)
 {
     const cvode_work *work = user;
-    for (size_t i = 0; i < work->problem->size; i++)
-        NV_DATA_S(weight)
-        [i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
+    for (size_t i = 0; i < work->problem->size; i++) NV_DATA_S(weight)
+    [i] = 1 / (work->rtol * fabs(NV_DATA_S(state)[i]) + nh_sizes_absolute(&work->sizes, work->rtol, i));
     return nh_all_finite(work->problem->size, NV_DATA_S(weight)) ? 0 : -1;
 }
 
@@ -107,8 +106,7 @@ static int call_guard(sunrealtype t, N_Vector state, sunrealtype *value, void *u
 {
     cvode_work *work = user;
     const nh_flow_problem *problem = work->problem;
-    if (problem->guard(t, NV_DATA_S(state), value, problem->context) && nh_all_finite(problem->guards, value))
-        return 0;
+    if (problem->guard(t, NV_DATA_S(state), value, problem->context) && nh_all_finite(problem->guards, value)) return 0;
     return not_computed(work, "guard", t);
 }
 
@@ -138,8 +136,7 @@ static void explain(int flag, const cvode_work *work, nh_motion *motion)
             t);
     else if (flag == CV_TOO_CLOSE)
         nh_motion_note(motion, "the times are too close together for double precision near t = %.10g", t);
-    else
-        nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->sundials.message);
+    else nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", t, work->sundials.message);
 }
 
 /* CVODE reports a sign change, or a guard that is exactly zero at the end of a step; both end the chart. */
@@ -147,10 +144,8 @@ static nh_step end_at_guard(double t, nh_motion *motion, cvode_work *work)
 {
     int flag = CVodeGetRootInfo(work->cvode, work->root);
     size_t guard = 0;
-    while (flag == CV_SUCCESS && guard < work->problem->guards && work->root[guard] == 0)
-        guard++;
-    if (guard == work->problem->guards)
-        return NH_STEP_ON;
+    while (flag == CV_SUCCESS && guard < work->problem->guards && work->root[guard] == 0) guard++;
+    if (guard == work->problem->guards) return NH_STEP_ON;
     motion->guard_hit = (long)guard;
     nh_motion_note(motion, "safeguard %zu %s through zero at t = %.10g", guard + 1,
                    work->root[guard] > 0 ? "rises" : "falls", t);
@@ -170,10 +165,8 @@ static void count_set_ups(cvode_work *work)
 static bool cvode_state(double time, double *state, void *context)
 {
     cvode_work *work = context;
-    if (work->across)
-        return nh_kink_crossing_state(work->across, time, state);
-    if (CVodeGetDky(work->cvode, time, 0, work->inside) != CV_SUCCESS)
-        return false;
+    if (work->across) return nh_kink_crossing_state(work->across, time, state);
+    if (CVodeGetDky(work->cvode, time, 0, work->inside) != CV_SUCCESS) return false;
     memcpy(state, NV_DATA_S(work->inside), work->problem->size * sizeof *state);
     return true;
 }
@@ -220,29 +213,22 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
                : motion->guard_hit >= 0                    ? NH_STEP_LAST
                                                            : NH_STEP_FAILED;
     }
-    if (flag == CV_ROOT_RETURN)
-        return end_at_guard(*time, motion, work);
-    if (flag >= 0)
-        return flag == CV_TSTOP_RETURN ? NH_STEP_LAST : NH_STEP_ON;
+    if (flag == CV_ROOT_RETURN) return end_at_guard(*time, motion, work);
+    if (flag >= 0) return flag == CV_TSTOP_RETURN ? NH_STEP_LAST : NH_STEP_ON;
     explain(flag, work, motion);
     return NH_STEP_FAILED;
 }
 
-static void cvode_stuck(nh_motion *motion, void *context)
-{
-    explain(CV_ERR_FAILURE, context, motion);
-}
+static void cvode_stuck(nh_motion *motion, void *context) { explain(CV_ERR_FAILURE, context, motion); }
 
 static bool create_objects(cvode_work *work, nh_flow_method method)
 {
     sunindextype size = (sunindextype)work->problem->size;
-    if (!nh_sundials_open(&work->sundials))
-        return false;
+    if (!nh_sundials_open(&work->sundials)) return false;
     work->state = N_VNew_Serial(size, work->sundials.context);
     work->matrix = SUNDenseMatrix(size, size, work->sundials.context);
     work->inside = work->state ? N_VClone(work->state) : NULL;
-    if (!work->inside || !work->matrix)
-        return false;
+    if (!work->inside || !work->matrix) return false;
     work->solver = SUNLinSol_Dense(work->state, work->matrix, work->sundials.context);
     work->cvode = CVodeCreate(method == NH_BDF ? CV_BDF : CV_ADAMS, work->sundials.context);
     return work->solver && work->cvode;
@@ -259,8 +245,7 @@ static bool set_up(cvode_work *work, double start, const double *initial)
                 CVodeSetMaxErrTestFails(work->cvode, most_fails) == CV_SUCCESS &&
                 CVodeSetLinearSolver(work->cvode, work->solver, work->matrix) == CV_SUCCESS &&
                 CVodeSetStopTime(work->cvode, work->stop) == CV_SUCCESS;
-    if (good && problem->jacobian)
-        good = CVodeSetJacFn(work->cvode, call_jacobian) == CV_SUCCESS;
+    if (good && problem->jacobian) good = CVodeSetJacFn(work->cvode, call_jacobian) == CV_SUCCESS;
     if (good && problem->guards > 0)
         good = CVodeRootInit(work->cvode, (int)problem->guards, call_guard) == CV_SUCCESS &&
                CVodeSetNoInactiveRootWarn(work->cvode) == CV_SUCCESS;
@@ -283,11 +268,10 @@ static void destroy_objects(cvode_work *work)
 }
 
 nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
-                   const nh_flow_options *options, nh_error *error)
+                    const nh_flow_options *options, nh_error *error)
 {
     nh_motion *motion = nh_motion_start(problem->size, problem->size, initial, count, times, options, error);
-    if (!motion || motion->complete)
-        return motion;
+    if (!motion || motion->complete) return motion;
     double n = (double)problem->size;
     cvode_work work = {.problem = problem,
                        .options = options,
@@ -296,8 +280,7 @@ nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_
                        .count = count,
                        .times = times};
     bool good = nh_motion_check_start(problem, times[0], initial, error);
-    if (!good)
-        goto done;
+    if (!good) goto done;
     work.rtol = nh_motion_rtol(motion, options);
     work.root = nh_alloc_array(problem->guards, sizeof *work.root);
     work.old = nh_alloc_array(problem->size, sizeof *work.old);

@@ -13,8 +13,8 @@
 #include "geometry/model.h"
 
 typedef struct {
-    nh_ex current, constant;  /* Phi, and the symbol of its value */
-    size_t state;             /* of (q, w): the one that it determines */
+    nh_ex current, constant; /* Phi, and the symbol of its value */
+    size_t state;            /* of (q, w): the one that it determines */
     /* of that state: (c - B)/A, and A; functions of the remaining states and of the constants */
     nh_ex value, slope;
 } nh_level;
@@ -22,13 +22,13 @@ typedef struct {
 typedef struct {
     const nh_model *model;
     size_t states, watches, levels;
-    nh_ex *row;     /* rates of the states, then the watched expressions, without the states of the levels */
-    nh_level *level; 
-    bool *feeds;    /* [i * states + j]: j feeds row i; only of rows that are needed */
-    bool *kept;     /* states with an equation */
-    bool implicit;  /* the equations contain implicit velocities */
-    size_t count;   /* number of kept states */
-    size_t cost;    /* instructions of their equations, and ten for each state that is integrated */
+    nh_ex *row; /* rates of the states, then the watched expressions, without the states of the levels */
+    nh_level *level;
+    bool *feeds;   /* [i * states + j]: j feeds row i; only of rows that are needed */
+    bool *kept;    /* states with an equation */
+    bool implicit; /* the equations contain implicit velocities */
+    size_t count;  /* number of kept states */
+    size_t cost;   /* instructions of their equations, and ten for each state that is integrated */
 } nh_dependency_graph;
 
 /* The closed system of the watched expressions. n conserved currents of the chart: each removes a state if fewer states

@@ -11,13 +11,13 @@ enum { NH_DRIFT_RUNS = 3 };
 typedef struct {
     /* max |Phi - Phi(0)| / scale, loosest tolerance first; NAN: it is real at no state of the motion */
     double drift[NH_DRIFT_RUNS];
-    double scale;                /* size of the current along the motion: of its terms, not of their cancelled sum */
+    double scale; /* size of the current along the motion: of its terms, not of their cancelled sum */
     /* time up to which it was measured: earlier than the end where the motion leaves the current's interval */
     double until;
     /* the drift of the tightest motion in doubles, where these lose digits and `drift` is computed in ball arithmetic;
      * else 0 */
     double in_doubles;
-    bool small, falls;           /* below options->drift tolerances; falls with the tolerance, or is at rounding */
+    bool small, falls; /* below options->drift tolerances; falls with the tolerance, or is at rounding */
     /* the error of the motion explains it: it is small, or it falls from the second tolerance to the third as that
      * error does */
     bool explained;
@@ -25,7 +25,7 @@ typedef struct {
 
 /* Where a current is defined: while each of these variables lies between its low and high. */
 typedef struct {
-    size_t variables; /* 0: it holds everywhere */
+    size_t variables;                 /* 0: it holds everywhere */
     nh_ex variable[NH_BOX_VARIABLES]; /* coordinates or t */
     double low[NH_BOX_VARIABLES], high[NH_BOX_VARIABLES];
 } nh_valid;
@@ -33,11 +33,11 @@ typedef struct {
 typedef struct {
     nh_dynamics *dynamics;
     const nh_options *options;
-    double begin;                /* of the motions */
-    const double *tolerance;     /* NH_DRIFT_RUNS */
+    double begin;            /* of the motions */
+    const double *tolerance; /* NH_DRIFT_RUNS */
     size_t currents;
-    const nh_ex *current;        /* of the chart */
-    const nh_valid *valid;       /* `currents` boxes, or NULL */
+    const nh_ex *current;  /* of the chart */
+    const nh_valid *valid; /* `currents` boxes, or NULL */
 } nh_drift_question;
 
 /* Measures the drift along the motion of tolerance[which]; out has one entry for each current. */

@@ -255,10 +255,7 @@ static bool guards_of(double t, const double *z, double *value, void *context)
     return true;
 }
 
-static bool renew(double *z, void *context)
-{
-    return nh_turns_renew(((nh_dynamics *)context)->model->system, z, NULL);
-}
+static bool renew(double *z, void *context) { return nh_turns_renew(((nh_dynamics *)context)->model->system, z, NULL); }
 
 nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
 {
@@ -268,7 +265,9 @@ nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
                              .rate = rate_of,
                              .jacobian = d->jacobian ? jacobian_of : NULL,
                              .guards = (d->constraint ? 1 : 0) + turns,
-                             .guard = turns ? guards_of : d->constraint ? end_of_chart : NULL,
+                             .guard = turns           ? guards_of
+                                      : d->constraint ? end_of_chart
+                                                      : NULL,
                              .turns = turns,
                              .renew = turns ? renew : NULL,
                              .walls = d->walls,

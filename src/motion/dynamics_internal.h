@@ -14,14 +14,14 @@ struct nh_dynamics {
     double *point, *out, *dense;
     nh_tape *constraint; /* df^a/dv^s (k x m, row-major), of constraints without poles; NULL: no pivot to watch */
     nh_tape_work *constraint_work;
-    double *slope;       /* values of these derivatives, and the k x k part of the dependent velocities */
-    double least;        /* the pivot at which the chart ends; it has the sign of the pivot at the start */
-    size_t walls;        /* number of walls of the rates (exact/walls.h) */
-    nh_tape *wall;       /* NULL: there are none */
+    double *slope; /* values of these derivatives, and the k x k part of the dependent velocities */
+    double least;  /* the pivot at which the chart ends; it has the sign of the pivot at the start */
+    size_t walls;  /* number of walls of the rates (exact/walls.h) */
+    nh_tape *wall; /* NULL: there are none */
     nh_tape_work *wall_work;
     double patience;
-    bool shares;         /* another nh_dynamics owns the tapes */
-    nh_start *start;     /* made for the first start */
+    bool shares;     /* another nh_dynamics owns the tapes */
+    nh_start *start; /* made for the first start */
 };
 
 void nh_dynamics_start_free(nh_start *start);

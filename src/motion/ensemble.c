@@ -16,7 +16,7 @@
 #include "system/sample.h"
 
 enum { lanes = NH_ENSEMBLE_BATCH, first_steps = 20 }; /* first_steps: too few to extrapolate the work of the others */
-static const double safety = 0.9, most_growth = 5, least_growth = 0.2;    /* factors of the step */
+static const double safety = 0.9, most_growth = 5, least_growth = 0.2; /* factors of the step */
 /* units of effort of a step, and of a sum with one number of one member */
 static const double step_units = 500, sum_units = 0.3;
 static const double order = 8;
@@ -31,9 +31,9 @@ typedef struct {
     nh_tape *values;
     nh_dynamics *watched; /* of a chart whose pivot is watched; else NULL */
     bool *alone;
-    long *evaluations; /* per batch */
+    long *evaluations;   /* per batch */
     double begun, limit; /* units of effort of this thread; the limit may be INFINITY */
-    double *reached;   /* per batch, the time that it reached; NULL: not wanted */
+    double *reached;     /* per batch, the time that it reached; NULL: not wanted */
 } plan;
 
 /* One batch: arrays of `lanes` values, state after state. */
@@ -47,8 +47,8 @@ typedef struct {
     double *lane_error;
     bool *alive;
     double t, h;
-    nh_sizes sizes;    /* sizes of all states in all lanes, as of one large motion */
-    double *allowed;   /* allowed absolute errors: kept x lanes */
+    nh_sizes sizes;        /* sizes of all states in all lanes, as of one large motion */
+    double *allowed;       /* allowed absolute errors: kept x lanes */
     nh_dynamics *dynamics; /* shares plan.watched */
     double *pivot, *whole;
 } batch;

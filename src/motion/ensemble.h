@@ -16,14 +16,14 @@ enum { NH_ENSEMBLE_BATCH = 128 }; /* members of a batch */
 
 typedef struct {
     size_t members, count, n;
-    double *time;            /* count */
+    double *time; /* count */
     /* value[(member * count + i) * n + k]: expression k at output i; NAN where a member did not come so far */
     double *value;
-    nh_closed_subsystem *scene;         /* the closed subsystem that was integrated; owned */
-    size_t alone, incomplete; /* members that were computed alone; that did not reach the end */
-    long evaluations;        /* of the right-hand side, per member and stage */
-    double seconds;          /* of the integration, without preparations */
-    char note[256];          /* reason why the first incomplete member ended */
+    nh_closed_subsystem *scene; /* the closed subsystem that was integrated; owned */
+    size_t alone, incomplete;   /* members that were computed alone; that did not reach the end */
+    long evaluations;           /* of the right-hand side, per member and stage */
+    double seconds;             /* of the integration, without preparations */
+    char note[256];             /* reason why the first incomplete member ended */
 } nh_ensemble;
 
 /* `request`: as for one trajectory; method and smallest are ignored. initial: members x (m + n) values (q, w) at

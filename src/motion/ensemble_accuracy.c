@@ -17,7 +17,7 @@ static const double most_step = 1e-5; /* smallest factor from one tolerance to t
 
 static const double passes = 2.3;     /* cost of all runs of an ensemble, relative to that of the first */
 static const double slower = 10;      /* a member may take up to this many times the work of the first */
-static const double most_told = 1000;  /* reports give no larger ratio */
+static const double most_told = 1000; /* reports give no larger ratio */
 enum { samples = 2 };                 /* members beside the first that are computed alone to measure their cost */
 
 /* A member alone. */
@@ -35,15 +35,15 @@ typedef struct {
     const double *initial;
     double eps;
     nh_ensemble_accuracy *out;
-    double *floor;          /* per member and value: the least scales (accuracy.h) */
+    double *floor; /* per member and value: the least scales (accuracy.h) */
     /* per member: the difference of the last two runs, and the estimated error of the tighter one */
     double *off, *estimate;
-    nh_integration_plan usual;           /* plan of the first member */
-    nh_integration_plans ways;           /* for members alone: the plan of the first member, or the given plans */
-    loner *one;             /* per member */
-    size_t *alone;          /* members to be computed alone */
+    nh_integration_plan usual; /* plan of the first member */
+    nh_integration_plans ways; /* for members alone: the plan of the first member, or the given plans */
+    loner *one;                /* per member */
+    size_t *alone;             /* members to be computed alone */
     nh_ensemble *e;
-    bool scaled;            /* `floor` contains the terms of the first member */
+    bool scaled; /* `floor` contains the terms of the first member */
 } search;
 
 static nh_ensemble *run(search *s, double tolerance, bool disturb, nh_error *error)
@@ -194,10 +194,9 @@ static void compute_alone(search *s, const nh_trajectory_request *request, size_
     nh_error_clear(&error);
     memcpy(z, start.state, o->m * sizeof *z);
     q.initial = &state;
-    nh_trajectory *t =
-        nh_dynamics_velocities(d, start.time[0], start.state, z + o->m)
-            ? nh_trajectory_accurate(&q, s->eps, ways, a, &error)
-            : NULL;
+    nh_trajectory *t = nh_dynamics_velocities(d, start.time[0], start.state, z + o->m)
+                           ? nh_trajectory_accurate(&q, s->eps, ways, a, &error)
+                           : NULL;
     if (!s->scaled) share_terms(s, &q, t);
     size_t reached = t ? t->motion->count : 0;
     bool before = arrived(e, member);

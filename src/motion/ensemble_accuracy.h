@@ -14,16 +14,16 @@
 #include "motion/ensemble.h"
 
 typedef struct {
-    bool held;                  /* all members have the accuracy */
+    bool held; /* all members have the accuracy */
     /* the largest estimate of the members that were accepted, at the tolerance of the batches */
     double wanted, estimate, tolerance;
-    bool all_alone;             /* all were computed alone, by `way`; the tolerance is that of the first member */
-    nh_integration_plan way;                 /* plan of the first member alone; its method is NULL where that failed */
-    nh_accuracy_choice choice;  /* origin of that plan */
-    double ratio;               /* counted work of all members alone to that in batches; 0: not known */
-    size_t alone, unsure;       /* members that were computed alone; members that do not have the accuracy */
-    int runs;                   /* of the whole ensemble */
-    long evaluations;           /* of all runs */
+    bool all_alone;            /* all were computed alone, by `way`; the tolerance is that of the first member */
+    nh_integration_plan way;   /* plan of the first member alone; its method is NULL where that failed */
+    nh_accuracy_choice choice; /* origin of that plan */
+    double ratio;              /* counted work of all members alone to that in batches; 0: not known */
+    size_t alone, unsure;      /* members that were computed alone; members that do not have the accuracy */
+    int runs;                  /* of the whole ensemble */
+    long evaluations;          /* of all runs */
     double seconds;
     char why[512];
 } nh_ensemble_accuracy;

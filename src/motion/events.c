@@ -11,10 +11,10 @@
 #include "motion/sign_changes.h"
 
 enum { most_iterations = 100 };
-static const double roundings = 4;   /* length of the final interval around a zero, in roundings of the time */
+static const double roundings = 4; /* length of the final interval around a zero, in roundings of the time */
 /* distances from a zero at which a function must be much larger: in final intervals, */
 static const double far_off = 1e3;
-static const double distant = 1e-4;  /* and as a part of the step */
+static const double distant = 1e-4; /* and as a part of the step */
 /* nearer to an end of the step, in final intervals, a jump cannot be told from a zero */
 static const double few = 100;
 static const double most_jump = 0.5; /* next to a jump a value is a larger part of that farther off */
@@ -23,8 +23,8 @@ struct nh_event_search {
     const nh_event_watch *watch;
     nh_inside_step *inside;
     nh_sign_changes change;
-    double *raw;   /* values and sizes at one more time, 2 count */
-    bool *pending; /* per function: it was zero at the beginning of the whole motion, and has had no sign since */
+    double *raw;        /* values and sizes at one more time, 2 count */
+    bool *pending;      /* per function: it was zero at the beginning of the whole motion, and has had no sign since */
     double before, now; /* ends of the last step */
     double *first, *at; /* the initial state of the motion; values and floors */
     size_t which;       /* the function whose zero is wanted */
@@ -50,8 +50,8 @@ static bool values_and_floors(double t, const double *z, double *value, void *co
 static double value_of_one(double t, void *context)
 {
     nh_event_search *c = context;
-    bool good = nh_inside_step_state(t, c->change.z, c->inside) &&
-                c->watch->value(t, c->change.z, c->raw, c->watch->context);
+    bool good =
+        nh_inside_step_state(t, c->change.z, c->inside) && c->watch->value(t, c->change.z, c->raw, c->watch->context);
     return good ? c->raw[c->which] : NAN;
 }
 
@@ -225,8 +225,7 @@ void nh_event_search_end(const nh_event_search *c, nh_motion *motion)
         nh_motion_note(motion, "an expression has no value near t = %.10g: events may be missing", c->unknown);
 }
 
-nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_options *options,
-                                        nh_inside_step *inside)
+nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_options *options, nh_inside_step *inside)
 {
     const nh_event_watch *watch = options->watch;
     if (!watch || !watch->count) return NULL;

@@ -25,11 +25,11 @@ typedef struct {
     gsl_odeiv2_step *between;
     const double *times;
     size_t count;
-    double h, before, now;     /* next step; times before and after the last one */
+    double h, before, now;      /* next step; times before and after the last one */
     double *state, *old, *work; /* now; before the last step */
     nh_guards guards;
     nh_kinks kinks;
-    double apace;              /* the step before a wall was approached; 0: none is */
+    double apace; /* the step before a wall was approached; 0: none is */
     nh_sizes sizes;
     double rtol, each; /* each: units of effort of a stage, with its sums of n numbers */
     long evaluations;

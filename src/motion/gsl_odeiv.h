@@ -10,9 +10,9 @@
 #include "motion/motion.h"
 
 /* Its methods: identifier, the name in GSL. */
-#define NH_GSL_ODEIV_TABLE(X) \
-    X(NH_RK8PD, rk8pd)        \
-    X(NH_RKF45, rkf45)        \
+#define NH_GSL_ODEIV_TABLE(X)                                                                                          \
+    X(NH_RK8PD, rk8pd)                                                                                                 \
+    X(NH_RKF45, rkf45)                                                                                                 \
     X(NH_MSADAMS, msadams)
 typedef enum {
 #define X(method, name) method,

@@ -23,13 +23,13 @@ typedef struct {
 } nh_integration_plan_limits;
 
 typedef struct {
-    const nh_integration_plan *way;       /* NULL: none was measured below eps */
+    const nh_integration_plan *way; /* NULL: none was measured below eps */
     /* the plan that confirms it where it is doubtful: the cheapest other one with error control; NULL: none was
      * measured */
     const nh_method *second;
     /* the cheapest by another method or in other equations; NULL: none was measured below eps */
     const nh_integration_plan *other;
-    double next;             /* cost of `other` relative to that of `way`; NAN: there is none */
+    double next; /* cost of `other` relative to that of `way`; NAN: there is none */
 } nh_integration_plan_choice;
 
 /* The cost of a motion with an accuracy, per unit of time: two runs, and the confirmation where it is doubtful. */

@@ -30,9 +30,12 @@ static nh_motion *by_one_step_method(const nh_kinks *k, const nh_flow_problem *p
     nh_error_clear(&ignored);
     double *times = nh_alloc_array(l->count + 2, sizeof *times), *scale = nh_alloc_array(k->change.size, sizeof *scale);
     for (size_t i = 0; i < k->change.size; i++) scale[i] = nh_sizes_absolute(l->sizes, l->rtol, i) / l->rtol;
-    nh_flow_options options = {
-        .rtol = l->rtol, .scale = scale, .watch = l->watch, .guarded = true, .whole = k->span,
-        .cancelled = nh_interrupted_callback};
+    nh_flow_options options = {.rtol = l->rtol,
+                               .scale = scale,
+                               .watch = l->watch,
+                               .guarded = true,
+                               .whole = k->span,
+                               .cancelled = nh_interrupted_callback};
     size_t count = times_of(l, end, times);
     /* an implicit method would solve its stages too inexactly to approach a wall */
     nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, p, l->old, count, times, &options, &ignored);

@@ -8,10 +8,10 @@
 /* A step of a method with many steps behind it. */
 typedef struct {
     double before, now;
-    const double *old;      /* the state before it */
+    const double *old; /* the state before it */
     const nh_sizes *sizes;
     double rtol;
-    size_t count;           /* the wanted times */
+    size_t count; /* the wanted times */
     const double *times;
     const nh_event_watch *watch; /* of the motion */
 } nh_kink_crossing;

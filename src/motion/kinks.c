@@ -8,21 +8,20 @@
 #include "base/progress.h"
 
 enum { many = 20, most_halvings = 200 };
-static const double roundings = 16;       /* of the time: `least` is so long at least */
-static const double nearer = 1e-3;        /* part of the way to a wall that a step towards it leaves */
+static const double roundings = 16; /* of the time: `least` is so long at least */
+static const double nearer = 1e-3;  /* part of the way to a wall that a step towards it leaves */
 /* part of the whole motion: a motion with `many` crossings in less time cannot leave the wall */
 static const double no_time = 1e-6;
 
 void nh_kinks_begin(nh_kinks *k, const nh_flow_problem *p, const double *z, size_t count, const double *times)
 {
     double begin = times[0], end = times[count - 1];
-    *k =
-        (nh_kinks){.change = {.count = p->walls, .size = p->size, .value = p->wall, .context = p->context},
-                   .longest = INFINITY,
-                   .last = NAN,
-                   .span = fabs(end - begin),
-                   .from = begin,
-                   .seen = INFINITY};
+    *k = (nh_kinks){.change = {.count = p->walls, .size = p->size, .value = p->wall, .context = p->context},
+                    .longest = INFINITY,
+                    .last = NAN,
+                    .span = fabs(end - begin),
+                    .from = begin,
+                    .seen = INFINITY};
     k->least = roundings * DBL_EPSILON * fmax(fabs(begin), fabs(end));
     if (!p->walls) return;
     nh_sign_changes_open(&k->change);

@@ -16,14 +16,14 @@
 
 typedef struct {
     nh_sign_changes change; /* of the functions of the walls */
-    double *ends;       /* of a one-step method: states and rates at both ends of the step */
-    double longest;     /* for a one-step method: the longest step that is allowed now (INFINITY: any) */
-    double least;       /* a step this short may cross a wall */
+    double *ends;           /* of a one-step method: states and rates at both ends of the step */
+    double longest;         /* for a one-step method: the longest step that is allowed now (INFINITY: any) */
+    double least;           /* a step this short may cross a wall */
     /* where its step begins, and the first time in it at which the rates were evaluated behind a wall (INFINITY:
      * never) */
     double from, seen;
-    double span, last;  /* length of the whole motion; time of the last `many`th crossing */
-    bool held;          /* the motion cannot leave a wall */
+    double span, last; /* length of the whole motion; time of the last `many`th crossing */
+    bool held;         /* the motion cannot leave a wall */
     long crossed;
 } nh_kinks;
 

@@ -50,13 +50,30 @@ const nh_method *nh_method_find(const char *name)
  * only similar. */
 static const char *elsewhere(const char *word, bool exactly)
 {
-    static const char *const others[][2] = {
-        {"ida", "bdf"},         {"ode15s", "bdf"},           {"ode23s", "bdf"},           {"lsoda", "bdf"},
-        {"vode", "bdf"},        {"cvode", "bdf"},            {"radau", "esdirk"},         {"radau5", "esdirk"},
-        {"ode113", "adams"},    {"dopri5", "dormand-prince"}, {"ode45", "dormand-prince"}, {"rk45", "dormand-prince"},
-        {"rk4", "rkf45"},       {"rk5", "dormand-prince"},   {"rk8", "rk8pd"},            {"dop853", "rk8pd"},
-        {"ode78", "rk8pd"},     {"ode89", "rk8pd"},          {"verlet", "dalembert"},     {"leapfrog", "dalembert"},
-        {"symplectic", "dalembert"}, {"variational", "dalembert"}, {"gauss", "midpoint"}, {"implicit", "midpoint"}};
+    static const char *const others[][2] = {{"ida", "bdf"},
+                                            {"ode15s", "bdf"},
+                                            {"ode23s", "bdf"},
+                                            {"lsoda", "bdf"},
+                                            {"vode", "bdf"},
+                                            {"cvode", "bdf"},
+                                            {"radau", "esdirk"},
+                                            {"radau5", "esdirk"},
+                                            {"ode113", "adams"},
+                                            {"dopri5", "dormand-prince"},
+                                            {"ode45", "dormand-prince"},
+                                            {"rk45", "dormand-prince"},
+                                            {"rk4", "rkf45"},
+                                            {"rk5", "dormand-prince"},
+                                            {"rk8", "rk8pd"},
+                                            {"dop853", "rk8pd"},
+                                            {"ode78", "rk8pd"},
+                                            {"ode89", "rk8pd"},
+                                            {"verlet", "dalembert"},
+                                            {"leapfrog", "dalembert"},
+                                            {"symplectic", "dalembert"},
+                                            {"variational", "dalembert"},
+                                            {"gauss", "midpoint"},
+                                            {"implicit", "midpoint"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (!strcasecmp(word, others[i][0]) || (!exactly && nh_text_nearest(word, others[i], 1))) return others[i][1];
     return NULL;
@@ -90,9 +107,7 @@ static nh_motion *part_by(const void *by, const nh_flow_problem *problem, const 
         return nh_gsl_odeiv((nh_gsl_odeiv_method)method->kind, problem, initial, count, times, options, error);
     case NH_METHOD_ARKODE:
         return nh_arkode((nh_arkode_method)method->kind, problem, initial, count, times, options, error);
-    default:
-        own.method = (nh_flow_method)method->kind;
-        return nh_cvode(problem, initial, count, times, &own, error);
+    default: own.method = (nh_flow_method)method->kind; return nh_cvode(problem, initial, count, times, &own, error);
     }
 }
 

@@ -18,9 +18,9 @@ typedef enum {
 typedef struct {
     const char *word, *name, *about; /* word: on the command line */
     nh_method_family family;
-    int kind;           /* index in the list of its family */
-    bool composed;      /* of NH_METHOD_MIDPOINT */
-    int order;          /* order of methods that take a step instead of a tolerance; otherwise 0 */
+    int kind;      /* index in the list of its family */
+    bool composed; /* of NH_METHOD_MIDPOINT */
+    int order;     /* order of methods that take a step instead of a tolerance; otherwise 0 */
 } nh_method;
 
 /* All methods in the order in which they are listed; the index must be below the count. */

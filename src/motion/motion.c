@@ -15,10 +15,8 @@ static const double smallest_rtol = 1e-14;
 
 static bool check_times(size_t count, const double *times, nh_error *error)
 {
-    if (count == 0)
-        return nh_fail(error, NH_INPUT, "", "a motion needs at least one output time");
-    if (!nh_all_finite(count, times))
-        return nh_fail(error, NH_INPUT, "", "an output time is not a finite number");
+    if (count == 0) return nh_fail(error, NH_INPUT, "", "a motion needs at least one output time");
+    if (!nh_all_finite(count, times)) return nh_fail(error, NH_INPUT, "", "an output time is not a finite number");
     bool backward = times[count - 1] < times[0];
     for (size_t i = 1; i < count; i++)
         if (backward ? times[i] > times[i - 1] : times[i] < times[i - 1]) {
@@ -33,8 +31,7 @@ static bool check_times(size_t count, const double *times, nh_error *error)
 
 static bool check_values(size_t given, const double *initial, const nh_flow_options *options, nh_error *error)
 {
-    if (given == 0)
-        return nh_fail(error, NH_INPUT, "", "a motion needs at least one state");
+    if (given == 0) return nh_fail(error, NH_INPUT, "", "a motion needs at least one state");
     if (!(options->rtol > 0 && isfinite(options->rtol)))
         return nh_fail(error, NH_INPUT, "", "the relative tolerance must be a positive number, not %g", options->rtol);
     for (size_t i = 0; i < given; i++) {
@@ -50,8 +47,7 @@ static bool check_values(size_t given, const double *initial, const nh_flow_opti
 nh_motion *nh_motion_start(size_t size, size_t given, const double *initial, size_t count, const double *times,
                            const nh_flow_options *options, nh_error *error)
 {
-    if (!check_times(count, times, error) || !check_values(given, initial, options, error))
-        return NULL;
+    if (!check_times(count, times, error) || !check_values(given, initial, options, error)) return NULL;
     nh_motion *motion = nh_alloc(sizeof *motion);
     motion->size = size;
     motion->time = nh_alloc_array(count, sizeof *motion->time);
@@ -71,8 +67,7 @@ nh_motion *nh_motion_start(size_t size, size_t given, const double *initial, siz
 
 void nh_motion_free(nh_motion *motion)
 {
-    if (!motion)
-        return;
+    if (!motion) return;
     nh_free(motion->time);
     nh_free(motion->state);
     nh_free(motion->end_state);
@@ -94,8 +89,7 @@ void nh_motion_note(nh_motion *motion, const char *format, ...)
 
 double nh_motion_rtol(nh_motion *motion, const nh_flow_options *options)
 {
-    if (options->rtol >= smallest_rtol)
-        return options->rtol;
+    if (options->rtol >= smallest_rtol) return options->rtol;
     nh_motion_note(motion, "the relative tolerance %g is below rounding error; %g was used", options->rtol,
                    smallest_rtol);
     return smallest_rtol;

@@ -60,15 +60,15 @@ typedef struct {
     double rtol;
     /* below this part of the largest size that a state has had, its error is absolute: rtol * absolute * size */
     double absolute;
-    const double *least;     /* size entries: the least size of each state; NULL: sizes come from the motion alone */
+    const double *least; /* size entries: the least size of each state; NULL: sizes come from the motion alone */
     /* size entries: the absolute error is rtol * scale[i]; NULL with absolute == 0: all scales are 1 */
     const double *scale;
-    double max_steps;        /* largest number of steps; 0: the default of 1e7 */
-    double effort;           /* largest work in units of base/effort.h; 0: no limit */
-    bool early;              /* a motion for which it will not suffice by far ends before it is spent */
+    double max_steps;                 /* largest number of steps; 0: the default of 1e7 */
+    double effort;                    /* largest work in units of base/effort.h; 0: no limit */
+    bool early;                       /* a motion for which it will not suffice by far ends before it is spent */
     bool (*cancelled)(void *context); /* called between steps: true ends the motion; may be NULL */
     void *cancel_context;
-    double step;             /* the step of methods with a fixed step */
+    double step; /* the step of methods with a fixed step */
     /* Called after every step of a one-step method with the new state, which it may change (a projection); false: it
      * failed. */
     bool (*after)(double t, double *z, void *context);
@@ -81,28 +81,28 @@ typedef struct {
 } nh_flow_options;
 
 typedef struct {
-    size_t count;     /* output points reached (the first is the initial state) */
+    size_t count; /* output points reached (the first is the initial state) */
     size_t size;
-    double *time;     /* count */
-    double *state;    /* count x size, row by row: state[i*size + j] */
-    bool complete;    /* all wanted times were reached, or a zero at which it was to stop */
-    bool limited;     /* it ended early at the limit of steps or of counted work */
-    bool singular;    /* it ended where the equations of motion determine no acceleration (singular.h) */
-    long guard_hit;   /* index of the guard that ended it, or -1 */
-    double end_time;  /* where it ended */
+    double *time;    /* count */
+    double *state;   /* count x size, row by row: state[i*size + j] */
+    bool complete;   /* all wanted times were reached, or a zero at which it was to stop */
+    bool limited;    /* it ended early at the limit of steps or of counted work */
+    bool singular;   /* it ended where the equations of motion determine no acceleration (singular.h) */
+    long guard_hit;  /* index of the guard that ended it, or -1 */
+    double end_time; /* where it ended */
     /* size: the state there; at a guard it is past the last output, and the next chart starts from it */
     double *end_state;
     long evaluations, steps, jacobians;
-    double effort;    /* units of base/effort.h that it took */
-    double seconds;   /* by the clock: for reports only */
-    size_t events;    /* zeros of the watched functions, in the order of the motion */
+    double effort;  /* units of base/effort.h that it took */
+    double seconds; /* by the clock: for reports only */
+    size_t events;  /* zeros of the watched functions, in the order of the motion */
     nh_event_found *event;
     double *event_state; /* events x size */
     /* the motion stopped at the last zero, which is the last output as well; then it is complete */
     bool stopped;
-    size_t smooth;       /* rows before the state is described anew for the first time (turns.h); 0: all */
-    double searched;     /* up to this time a part of the integrator has recorded the zeros already (NAN: nowhere) */
-    char note[256];   /* remarks in sentences, such as why the motion ended early */
+    size_t smooth;   /* rows before the state is described anew for the first time (turns.h); 0: all */
+    double searched; /* up to this time a part of the integrator has recorded the zeros already (NAN: nowhere) */
+    char note[256];  /* remarks in sentences, such as why the motion ended early */
 } nh_motion;
 
 /* Frees a motion with its states, events and end state; NULL is allowed. */
@@ -123,8 +123,8 @@ typedef struct {
      * where they are wanted. */
     bool (*rate)(double t, const double *z, double *rate, void *rate_context);
     void *rate_context;
-    bool dense; /* `state` gives such states, too, but each costs a step */
-    double step_effort;   /* units of one step, beside the right-hand sides and the effort that is counted elsewhere */
+    bool dense;         /* `state` gives such states, too, but each costs a step */
+    double step_effort; /* units of one step, beside the right-hand sides and the effort that is counted elsewhere */
     /* Writes the note: the last NH_STUCK_AFTER steps did not move the time, or very many hardly did. */
     void (*stuck)(nh_motion *motion, void *context);
 } nh_stepper;

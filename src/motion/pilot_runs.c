@@ -15,10 +15,10 @@ static const double share = 1.0 / 16, most_part = 0.25;
 static const double patience = 2, least_effort = 2e5;
 /* error of the reference, as a part of the error that is aimed at; its least tolerance with CVODE */
 static const double finer = 1e-2, finest_stiff = 1e-13;
-static const double least_error = 3e-14;               /* smallest error that can be aimed at */
+static const double least_error = 3e-14; /* smallest error that can be aimed at */
 /* an error below the aim by at most this factor is good: no further run */
 static const double close = 30;
-static const double safety = 3;                        /* further runs aim at the error divided by this */
+static const double safety = 3; /* further runs aim at the error divided by this */
 /* units of a motion for which the functions of methods with fixed steps are worth deriving */
 static const double long_motion = 1e9;
 

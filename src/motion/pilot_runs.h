@@ -22,12 +22,12 @@ typedef struct {
 } nh_pilot_runs_terms;
 
 typedef struct {
-    size_t count;             /* plans that were measured, below eps or not; 0: there was no reference */
+    size_t count; /* plans that were measured, below eps or not; 0: there was no reference */
     nh_integration_plan way[NH_PILOT_RUNS_WAYS];
-    size_t tried;             /* methods in velocities */
-    double part;              /* of the motion */
+    size_t tried; /* methods in velocities */
+    double part;  /* of the motion */
     long evaluations;
-    double effort, seconds;   /* of all pilot runs: units of base/effort.h, and time by the clock */
+    double effort, seconds; /* of all pilot runs: units of base/effort.h, and time by the clock */
 } nh_pilot_runs;
 
 /* `from`: a state of the motion between its ends, or the initial one. */

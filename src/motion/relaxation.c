@@ -24,7 +24,7 @@ typedef struct {
     nh_programs *programs;
     nh_tableau tableau;
     size_t size, count;
-    double t, step, energy;    /* energy: its value at the start */
+    double t, step, energy;     /* energy: its value at the start */
     double *z, *z1, *stage, *d; /* stage: NH_MOST_STAGES x size */
     const double *times;
     long before;

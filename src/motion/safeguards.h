@@ -11,7 +11,7 @@ typedef enum { NH_GUARD_KEPT, NH_GUARD_BACK, NH_GUARD_END, NH_GUARD_TURN } nh_gu
 
 typedef struct {
     const nh_flow_problem *problem;
-    double *value, *sign;   /* of each guard: its value now, and at the start; NULL: nothing is watched */
+    double *value, *sign; /* of each guard: its value now, and at the start; NULL: nothing is watched */
     /* the longest step that is allowed (INFINITY: any); a way that is no longer is not halved */
     double longest, least;
 } nh_guards;

@@ -20,7 +20,7 @@ typedef struct {
     /* the values, and after them sizes below which these have no sign (0 where nothing is written) */
     bool (*value)(double t, const double *z, double *value, void *context);
     void *context;
-    double *side; /* of each function: +1, -1; 0: not known yet */
+    double *side;               /* of each function: +1, -1; 0: not known yet */
     double *sample, *probe, *z; /* values and floors along a step, and at one more time; a state */
     double doubtful;            /* a time at which a function touches 0 within its floor; NAN: none so far */
     long samples;               /* number of samples in the last search */

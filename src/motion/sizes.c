@@ -11,12 +11,12 @@
 
 enum { POINTS = 10, THIRDS = POINTS - 3 }; /* of a line, and third differences along it */
 enum { most_shorter = 60, least_levels = 4, most_levels = 64, between_measures = 32 };
-static const double shorter = 0.25;          /* factor from one tau that is tried to the next */
-static const double within = 0.25;           /* part of the tau that is found, which is used */
+static const double shorter = 0.25; /* factor from one tau that is tried to the next */
+static const double within = 0.25;  /* part of the tau that is found, which is used */
 /* From one state of a line to the next, as a part of the sizes: far more than a rounding, and so short that rates bend
  * by less than their rounding.  The noise is at most so many times less than third differences. */
 static const double apart = 0x1p-27, noise = 1.5;
-static const double disturbance = 4;         /* roundings of each state, whose effect on the rates is measured */
+static const double disturbance = 4; /* roundings of each state, whose effect on the rates is measured */
 /* a state has no digits if its rounding in a step is a larger part of its size */
 static const double drowned = 1e-3;
 /* Rounding may take this part of the tolerance; or it may be what so many times tau make of it, because the steps of
@@ -46,8 +46,7 @@ static double middle_of(size_t count, double *values)
  * Scientific Computing 33, 1292: computational noise).  Neither is seen in states that differ by single roundings: a
  * difference of large terms is a multiple of their last digit.  A kink or a jump on the line changes two or three of
  * the differences, and not their median.  The time moves as well: functions of time alone have their rounding, too. */
-static void measure_rounding(nh_sizes *s, double t, double tau, const double *z, const double *size,
-                             double *rounding)
+static void measure_rounding(nh_sizes *s, double t, double tau, const double *z, const double *size, double *rounding)
 {
     size_t n = s->problem->size;
     double *moved = s->work + 3 * n, *f = s->line, slope[POINTS - 1], third[THIRDS];

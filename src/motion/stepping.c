@@ -158,8 +158,7 @@ static bool watch_step(watched *w, double time, double last, nh_motion *motion, 
     size_t before = motion->events;
     bool stop = w->events && nh_event_search_step(w->events, motion);
     if (isnan(*singular)) return stop;
-    while (motion->events > before &&
-           fabs(motion->event[motion->events - 1].time - begin) > fabs(*singular - begin))
+    while (motion->events > before && fabs(motion->event[motion->events - 1].time - begin) > fabs(*singular - begin))
         motion->events--, stop = false;
     if (stop) *singular = NAN;
     return stop;

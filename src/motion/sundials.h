@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-#define NH_SUNDIALS_SINCE(major, minor) \
+#define NH_SUNDIALS_SINCE(major, minor)                                                                                \
     (SUNDIALS_VERSION_MAJOR > (major) || (SUNDIALS_VERSION_MAJOR == (major) && SUNDIALS_VERSION_MINOR >= (minor)))
 
 typedef struct nh_sundials {

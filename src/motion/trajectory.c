@@ -98,7 +98,7 @@ typedef struct {
     nh_trajectory *out;
     const nh_method *method; /* NULL: automatic */
     const nh_method *used;   /* of the last motion */
-    double *z0, *y0; /* (q, w) and (q, v) at the start */
+    double *z0, *y0;         /* (q, w) and (q, v) at the start */
     nh_clock_limit time_limit;
     nh_flow_options how;
     bool leave; /* the chart ends on the way */

@@ -31,20 +31,20 @@ typedef struct {
 typedef struct {
     const nh_model *model;
     const nh_state *initial;
-    size_t count;             /* number of output times */
+    size_t count; /* number of output times */
     const double *times;
     const nh_options *options; /* tolerance, absolute, steps, compile */
     size_t n;
-    const nh_ex *e;           /* expressions of the chart that are wanted along the motion; n may be 0 */
+    const nh_ex *e; /* expressions of the chart that are wanted along the motion; n may be 0 */
     /* n, or NULL: their errors are relative to the largest of their terms, with an accuracy (accuracy.h) */
     const bool *by_terms;
-    size_t events;            /* events to be recorded (motion.h) */
+    size_t events; /* events to be recorded (motion.h) */
     const nh_event *event;
     /* functions of t and q: at their zeros the motion has an impulse that its equations do not determine, and ends
      * (integrals/region.h) */
     size_t impulses;
     const nh_ex *impulse;
-    bool smallest;            /* integrate only the closed subsystem for `e` and the events */
+    bool smallest; /* integrate only the closed subsystem for `e` and the events */
     /* expressions of the chart that are known to be conserved: they may determine states of the subsystem */
     size_t currents;
     const nh_ex *current;
@@ -53,7 +53,7 @@ typedef struct {
     const nh_method *method;  /* NULL: automatic choice (automatic.h) */
     double step;              /* of methods with a fixed step, which solve the model's own equations for all states */
     nh_programs *programs;    /* programs of the model for these methods; NULL: made for this motion */
-    nh_velocities velocities;   /* used where possible; otherwise the model's own */
+    nh_velocities velocities; /* used where possible; otherwise the model's own */
     const nh_model *other;    /* for NH_OTHER_VELOCITIES */
     double max_seconds;       /* time limit (base/clock.h); 0: none; a motion that takes longer is not complete */
     double max_effort;        /* the same in units of base/effort.h, of each attempt at the motion; 0: none */
@@ -71,10 +71,10 @@ nh_trajectory_own nh_trajectory_own_create(const nh_trajectory_request *request)
 void nh_trajectory_own_free(nh_trajectory_own *own);
 
 typedef struct {
-    nh_motion *motion;        /* states (q, w), (q, v), or the kept states of the subsystem */
+    nh_motion *motion; /* states (q, w), (q, v), or the kept states of the subsystem */
     const char *method, *formulation;
-    double *value;            /* count x n, row by row: value[i * n + k] */
-    double *event_value;      /* the same at the events: motion->events x n */
+    double *value;                       /* count x n, row by row: value[i * n + k] */
+    double *event_value;                 /* the same at the events: motion->events x n */
     nh_closed_subsystem *scene;          /* NULL: all states were integrated */
     char machine[NH_TRAJECTORY_MACHINE]; /* how the equations were evaluated, in words */
 } nh_trajectory;

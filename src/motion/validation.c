@@ -25,7 +25,7 @@ typedef struct {
     const nh_observable *watch;
     const nh_valid *valid;
     const nh_method *method; /* NULL: automatic choice */
-    bool everywhere;  /* the chart breaks down on the way: the motion is integrated in all coordinates */
+    bool everywhere;         /* the chart breaks down on the way: the motion is integrated in all coordinates */
     size_t currents;
     const nh_ex *current; /* of the chart */
 } run;
@@ -149,7 +149,8 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
         else if (rows < reduced->count && !v->note[0])
             snprintf(v->note, sizeof v->note,
                      "the multiplier form was compared up to t = %.4g, where the coordinates of an orientation become "
-                     "their shadow", reduced->time[rows - 1]);
+                     "their shadow",
+                     reduced->time[rows - 1]);
     } else {
         snprintf(v->note, sizeof v->note, "the multiplier form could not be integrated: %.180s",
                  full ? full->motion->note : ignored.what);

@@ -17,37 +17,37 @@
 typedef struct {
     nh_arena *arena;
     const char *method, *multiplier_method, *chart;
-    bool checked;              /* an accuracy was requested */
+    bool checked; /* an accuracy was requested */
     nh_accuracy accuracy;
     double tolerance[NH_DRIFT_RUNS], begin, end;
     size_t currents;
     nh_drift *current;
-    size_t count, size;        /* of the tightest run */
+    size_t count, size;                /* of the tightest run */
     double *time, *state, *multiplier; /* count; count x (m + n); count x k by the formula */
     long evaluations, steps;
     bool complete;
-    char note[400]; /* room for the note of a motion and the words before it */
-    bool multiplier_form;      /* was the multiplier form integrated? */
+    char note[400];       /* room for the note of a motion and the words before it */
+    bool multiplier_form; /* was the multiplier form integrated? */
     double state_difference, multiplier_difference, violation; /* relative to sizes along the motion */
     /* was the motion computed once more by CVODE Adams, which is independent of an explicit pair? */
     bool multistep;
     double multistep_difference; /* of its states, relative to sizes along the motion */
-    double crossing;           /* first time at which another chart's pivot changes sign; NAN: never */
+    double crossing;             /* first time at which another chart's pivot changes sign; NAN: never */
     const char *crossing_chart;
     size_t watches;
     const char **watch_name;
-    double *watch;             /* count x watches, along the tightest run */
+    double *watch; /* count x watches, along the tightest run */
     /* the closed subsystem for the watched expressions, in words; NULL: nothing is watched, or it could not be
      * integrated */
     const char *scene;
-    double scene_difference;   /* of the watched values, relative to their sizes along the motion */
+    double scene_difference; /* of the watched values, relative to their sizes along the motion */
     long scene_evaluations;
 } nh_validation;
 
 typedef struct {
     const char *name;
     nh_ex value;
-    bool asked; /* given by the user: the subsystem is made for it */
+    bool asked;    /* given by the user: the subsystem is made for it */
     bool by_terms; /* a sum that may cancel (nh_trajectory_request) */
 } nh_observable;
 
@@ -57,7 +57,7 @@ typedef struct {
     const nh_model *model, *other;
     size_t currents;
     const nh_ex *current;
-    const nh_valid *valid;         /* `currents` boxes, or NULL */
+    const nh_valid *valid; /* `currents` boxes, or NULL */
     size_t watches;
     const nh_observable *watch;
     const nh_state *initial;

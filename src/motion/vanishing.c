@@ -9,8 +9,8 @@
 #include "graph/terms.h"
 
 enum { most_probes = 4, disturbed_times = 4 };
-static const double disturbance = 4;   /* roundings of each state */
-static const double above = 32;        /* larger multiples of the effect of these are not rounding */
+static const double disturbance = 4; /* roundings of each state */
+static const double above = 32;      /* larger multiples of the effect of these are not rounding */
 /* roundings so many times larger change a well-conditioned value at least by this factor more; tan(pi/2) they do not */
 static const double more = 1e6, linear = 1e4;
 static const double cancelled = 1e-12; /* part of the terms of a sum: a smaller value counts as zero */
@@ -21,7 +21,7 @@ struct nh_vanishing {
     nh_tape *tape;         /* rates of (q, w), then the quantities */
     nh_tape_work *work;
     size_t states, rows, outputs;
-    size_t *first;         /* per row of outputs: the row itself, then its terms; rows + 1 entries */
+    size_t *first; /* per row of outputs: the row itself, then its terms; rows + 1 entries */
     double *z, *moved, *point, *value, *other, *rounding, *coarse;
     bool *fixed;
 };

@@ -12,10 +12,9 @@
 
 /* ---- before the system ---- */
 
-static const char *const top_keys[] = {"name",        "system",     "set",   "route",    "ansatz",
-                                       "unknowns",    "samples",    "seed",  "validate", "scene",
-                                       "definitions", "velocities", "title", "doc",      "figures",
-                                       "search"};
+static const char *const top_keys[] = {"name",    "system", "set",      "route", "ansatz",      "unknowns",
+                                       "samples", "seed",   "validate", "scene", "definitions", "velocities",
+                                       "title",   "doc",    "figures",  "search"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
@@ -64,9 +63,8 @@ static bool read_settings(nh_analysis_file *a, const nh_deck_node *map, nh_error
 
 static bool read_head(nh_analysis_file *a, nh_error *error)
 {
-    static const char *const routes[] = {"both", "symmetry", "current"}, *const velocities[] = {"auto", "quasi",
-                                                                                                "coordinates"},
-        *const searches[] = {"yes", "no"};
+    static const char *const routes[] = {"both", "symmetry", "current"},
+                             *const velocities[] = {"auto", "quasi", "coordinates"}, *const searches[] = {"yes", "no"};
     const nh_deck_node *root = nh_deck_root(a->deck), *node;
     size_t index = 0;
     if (!nh_deck_is(a->deck, root, NH_DECK_MAP, "an analysis file (system: ..., ansatz: ...)", error)) return false;
@@ -183,8 +181,8 @@ bool nh_analysis_file_parse(reader *r, const nh_deck_node *node, nh_ex *out)
 {
     if (!nh_deck_is(r->a->deck, node, NH_DECK_SCALAR, "an expression", r->error)) return false;
     nh_ex e;
-    return nh_system_expression(r->model->system, r->a->deck, node, r->extras, r->extra, &e, r->error)
-           && to_chart(r, node, e, out);
+    return nh_system_expression(r->model->system, r->a->deck, node, r->extras, r->extra, &e, r->error) &&
+           to_chart(r, node, e, out);
 }
 
 /* Is `name`, which stands at `node`, well formed and free? */
@@ -282,8 +280,8 @@ static bool read_validate(reader *r)
     const nh_deck_node *map = nh_deck_get(r->root, "validate"), *node;
     nh_analysis_file *a = r->a;
     size_t m = r->model->m;
-    a->initial = (nh_state){.q = nh_analysis_file_take(r, m, sizeof(double)),
-                            .v = nh_analysis_file_take(r, m, sizeof(double))};
+    a->initial =
+        (nh_state){.q = nh_analysis_file_take(r, m, sizeof(double)), .v = nh_analysis_file_take(r, m, sizeof(double))};
     if (!map) return true;
     if (!nh_deck_is(a->deck, map, NH_DECK_MAP, "validate", r->error) || !nh_deck_only(a->deck, map, keys, 3, r->error))
         return false;

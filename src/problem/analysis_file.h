@@ -13,14 +13,14 @@ typedef struct {
     nh_figure_kind kind;
     const char *title;
     size_t quantities;
-    nh_named *quantity;   /* path: x, y and perhaps a heading; plot: each over time */
-    size_t values;        /* 0: one motion with the values of the analysis */
-    const char *vary;     /* a parameter, */
-    double *value;        /* its values, a motion each; samples: how many, a linear problem each */
+    nh_named *quantity; /* path: x, y and perhaps a heading; plot: each over time */
+    size_t values;      /* 0: one motion with the values of the analysis */
+    const char *vary;   /* a parameter, */
+    double *value;      /* its values, a motion each; samples: how many, a linear problem each */
     bool has_time;
     /* the motion begins at the t of the initial state, whether that lies within these times or not */
     double begin, end;
-    size_t unknown;       /* scan: over this one */
+    size_t unknown; /* scan: over this one */
 } nh_figure_request;
 
 /* The part that must be known before the system is read. */
@@ -41,7 +41,7 @@ typedef struct {
     nh_unknown *unknown;
     nh_named *definition, *watch;
     size_t shapes;
-    nh_shape *shape;          /* to be drawn */
+    nh_shape *shape; /* to be drawn */
     size_t figures;
     nh_figure_request *figure;
     bool has_initial, has_until;

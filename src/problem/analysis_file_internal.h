@@ -8,7 +8,7 @@ typedef struct {
     nh_analysis_file *a;
     const nh_model *model;
     const nh_deck_node *root;
-    nh_named *extra; /* E, Lbar, unknowns, definitions */
+    nh_named *extra;    /* E, Lbar, unknowns, definitions */
     size_t extras, own; /* the first `own` are E and Lbar */
     nh_error *error;
 } nh_analysis_file_reader;

@@ -27,8 +27,8 @@ typedef struct {
     size_t count, capacity;
     nh_track *track;
     size_t shapes;
-    const nh_shape *shape;  /* what is drawn; its numbers are the tracks of that kind, in order */
-    const char *drawing;    /* whose drawing it is, in words: "as in the analysis file"; NULL: there is none */
+    const nh_shape *shape; /* what is drawn; its numbers are the tracks of that kind, in order */
+    const char *drawing;   /* whose drawing it is, in words: "as in the analysis file"; NULL: there is none */
 } nh_observables;
 
 /* An empty list that lives in the arena. */

@@ -18,7 +18,7 @@ enum { most_places = 64 };
 static char *file_of_code(nh_arena *arena)
 {
     Dl_info info;
-    void   *here = (void *)(uintptr_t)nh_places_look;
+    void *here = (void *)(uintptr_t)nh_places_look;
     if (dladdr(here, &info) && info.dli_fname && info.dli_fname[0] == '/' && strstr(info.dli_fname, ".so"))
         return nh_arena_strdup(arena, info.dli_fname);
     char path[4096];

@@ -12,10 +12,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static double half_width(const nh_model *o, size_t s)
-{
-    return (o->chart->high[1 + s] - o->chart->low[1 + s]) / 2;
-}
+static double half_width(const nh_model *o, size_t s) { return (o->chart->high[1 + s] - o->chart->low[1 + s]) / 2; }
 
 /* The unit of the coordinate whose velocity w^i is; 1 for quasi-velocities. */
 static double length_of(const nh_model *o, size_t i) { return o->chart->quasi ? 1 : half_width(o, o->chart->free[i]); }

@@ -10,10 +10,7 @@
 #include "reduction/section.h"
 #include "reduction/subspace.h"
 
-static size_t places_of(const nh_kinetic *k)
-{
-    return k->places < NH_ACTION_PLACES ? k->places : NH_ACTION_PLACES;
-}
+static size_t places_of(const nh_kinetic *k) { return k->places < NH_ACTION_PLACES ? k->places : NH_ACTION_PLACES; }
 
 void nh_action_values(const nh_action *g, const double *q, double *E)
 {
@@ -266,7 +263,7 @@ struct nh_flows {
     nh_tape *tape;
     nh_tape_work *work;
     double *E;
-    bool *constant;    /* per generator: a translation */
+    bool *constant; /* per generator: a translation */
     const double *c;
 };
 

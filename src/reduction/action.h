@@ -18,22 +18,22 @@
 typedef struct {
     const nh_kinetic *kinetic;
     size_t d;
-    nh_generator *generator;   /* d */
-    nh_algebra algebra;        /* C */
-    nh_ex *constant;           /* d x d x d: the same as expressions of the parameters (constants.h) */
-    bool exact;                /* they are known exactly, not by numbers at the sample points */
+    nh_generator *generator; /* d */
+    nh_algebra algebra;      /* C */
+    nh_ex *constant;         /* d x d x d: the same as expressions of the parameters (constants.h) */
+    bool exact;              /* they are known exactly, not by numbers at the sample points */
     bool closes;
-    double closure;            /* largest residual of a bracket, relative */
-    size_t worst[2];           /* the bracket with the largest residual */
+    double closure;  /* largest residual of a bracket, relative */
+    size_t worst[2]; /* the bracket with the largest residual */
     /* d x d: this bracket is no combination of the generators; its constants are 0 and have no meaning */
     bool *outside;
-    size_t orbit;              /* rank E at generic points; d - orbit: isotropy */
-    bool free;                 /* at every sample point */
-    double least;              /* the least sigma_min / sigma_max of E, columns scaled */
-    size_t least_place;        /* index of that sample point */
+    size_t orbit;       /* rank E at generic points; d - orbit: isotropy */
+    bool free;          /* at every sample point */
+    double least;       /* the least sigma_min / sigma_max of E, columns scaled */
+    size_t least_place; /* index of that sample point */
     bool dimension_assumption, chaplygin;
-    size_t intersection;       /* dim S */
-    double transversality;     /* Chaplygin: the least sigma_min / sigma_max of omega on V */
+    size_t intersection;   /* dim S */
+    double transversality; /* Chaplygin: the least sigma_min / sigma_max of omega on V */
 } nh_action;
 
 enum { NH_ACTION_PLACES = 16 }; /* sample points at which fields are compared */

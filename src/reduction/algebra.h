@@ -62,9 +62,9 @@ typedef enum {
     NH_SE3,
     NH_BIANCHI4, /* the rest acts on the plane [g,g] by one eigenvalue and a Jordan block; V: as a multiple of 1 */
     NH_BIANCHI5,
-    NH_BIANCHI6,    /* with two real eigenvalues; VII: complex ones, with real parts */
+    NH_BIANCHI6, /* with two real eigenvalues; VII: complex ones, with real parts */
     NH_BIANCHI7,
-    NH_NIL_SO2,     /* Heisenberg's algebra and its turns; its boosts */
+    NH_NIL_SO2, /* Heisenberg's algebra and its turns; its boosts */
     NH_NIL_SO11,
     NH_SO31,
     NH_SL3R,
@@ -80,7 +80,7 @@ typedef enum {
     NH_SU31,
     NH_E21,
     NH_SE4,
-    NH_ISO31,       /* Poincare's */
+    NH_ISO31, /* Poincare's */
     NH_OTHER_ALGEBRA
 } nh_algebra_kind;
 

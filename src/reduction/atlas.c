@@ -13,10 +13,10 @@ static const double usable = 0.25;
 
 struct nh_atlas {
     const nh_action *action;
-    const nh_second *second;  /* of a second stage */
+    const nh_second *second; /* of a second stage */
     const nh_action *both;
     bool chaplygin;
-    const size_t *avoid;      /* the coordinates of a slice that failed, while another one is made; NULL */
+    const size_t *avoid; /* the coordinates of a slice that failed, while another one is made; NULL */
     nh_reduced_chart **chart;
     size_t count, capacity;
     const nh_slice *preferred;

@@ -21,7 +21,7 @@ typedef struct {
     const nh_system *system;
     const nh_chain *chain;
     nh_dag *dag;
-    nh_wrench *behind;     /* per body: momentum of it and of all bodies behind it, in its frame */
+    nh_wrench *behind; /* per body: momentum of it and of all bodies behind it, in its frame */
     uint64_t seed;
     nh_chain_symmetries *out;
 } work;

@@ -27,14 +27,14 @@ typedef enum { NH_CHAIN_FIRST, NH_CHAIN_AP1, NH_CHAIN_AP2, NH_CHAIN_EXTREMITY, N
 
 typedef struct {
     nh_chain_rule rule;
-    size_t joint;      /* index in system->chain->joint */
-    nh_ex *component;  /* m: the infinitesimal generator along the coordinates */
+    size_t joint;     /* index in system->chain->joint */
+    nh_ex *component; /* m: the infinitesimal generator along the coordinates */
 } nh_chain_field;
 
 typedef struct {
     nh_arena *arena;
     size_t joints;
-    size_t *dimension;         /* joints x NH_CHAIN_RULES: of each joint's algebra under each rule */
+    size_t *dimension; /* joints x NH_CHAIN_RULES: of each joint's algebra under each rule */
     /* one per dimension that was found; a field found by several rules occurs several times */
     size_t fields;
     nh_chain_field *field;

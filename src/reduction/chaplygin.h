@@ -30,17 +30,17 @@ typedef struct {
     const nh_slice *slice;
     nh_dag *dag;
     size_t n, d;
-    nh_ex *A;        /* d x n */
-    nh_ex *B;        /* d x n x n: B[(a*n + i)*n + j] */
-    nh_ex *K;        /* n x n */
-    nh_ex *J;        /* d x n: J_a = J[a*n + j] x'^j */
-    nh_ex *U;        /* n x n x n: Ups_ij = U[(k*n + i)*n + j] x'^k */
-    nh_ex V;         /* Vhat */
-    bool plain;      /* the following members are not used: linear constraints, L = K - V, no forces */
+    nh_ex *A;            /* d x n */
+    nh_ex *B;            /* d x n x n: B[(a*n + i)*n + j] */
+    nh_ex *K;            /* n x n */
+    nh_ex *J;            /* d x n: J_a = J[a*n + j] x'^j */
+    nh_ex *U;            /* n x n x n: Ups_ij = U[(k*n + i)*n + j] x'^k */
+    nh_ex V;             /* Vhat */
+    bool plain;          /* the following members are not used: linear constraints, L = K - V, no forces */
     nh_ex *A0, *J0, *B0; /* d, d, d x n: B0[a*n + i] = B^a_i0 */
-    nh_ex *a;        /* n: ahat */
-    nh_ex *force;    /* n, of (x, x'): forces beside Lhat, with the gyroscopic force Ups_ij x'^j */
-    nh_reduced reduced; /* x' as velocities, p their momenta */
+    nh_ex *a;            /* n: ahat */
+    nh_ex *force;        /* n, of (x, x'): forces beside Lhat, with the gyroscopic force Ups_ij x'^j */
+    nh_reduced reduced;  /* x' as velocities, p their momenta */
 } nh_chaplygin;
 
 /* False with a message when om_e is singular. */
@@ -56,17 +56,17 @@ bool nh_chaplygin_init(nh_chaplygin *chaplygin, const nh_slice *slice, nh_error 
 typedef struct {
     bool tested;
     bool measure, simple, factor;
-    bool exact;         /* these, and whether Theta is 0, were decided modulo primes; false: by numbers */
+    bool exact; /* these, and whether Theta is 0, were decided modulo primes; false: by numbers */
     /* the density is many-valued: Theta has a period along a turn of an angle on which the stage is regular.  A density
      * that vanishes, or grows without bound, where the coordinates are singular or orbits are tangent to D is not
      * local: the stage ends there */
     bool local;
-    double size;        /* of Theta: 0 means that the Liouville measure is invariant */
-    double curl;        /* largest |d Theta| */
-    double phi_simple;  /* largest residual of the algebraic condition */
-    bool closed;        /* density.h: the density is known in closed form */
-    nh_ex density;      /* exp(sigma); the factor is its (n - 1)th root */
-    nh_proof proof;     /* of it */
+    double size;       /* of Theta: 0 means that the Liouville measure is invariant */
+    double curl;       /* largest |d Theta| */
+    double phi_simple; /* largest residual of the algebraic condition */
+    bool closed;       /* density.h: the density is known in closed form */
+    nh_ex density;     /* exp(sigma); the factor is its (n - 1)th root */
+    nh_proof proof;    /* of it */
 } nh_chaplygin_measure;
 
 /* Is there no gyroscopic force at the values of the parameters? */

@@ -12,7 +12,7 @@ typedef struct {
     const nh_options *options;
     /* d + 1: [e_a, e_b] and the generators, their components told apart by marks; coefficients */
     nh_ex *field, *relation;
-    double *like;            /* d + 1: 1 and C_ab */
+    double *like; /* d + 1: 1 and C_ab */
 } work;
 
 /* Do the fields contain parameters? */

@@ -121,7 +121,7 @@ typedef struct {
     const search *s;
     const nh_ex *slope, *theta;
     const nh_options *options;
-    size_t left;           /* number of candidates that may still be proved */
+    size_t left; /* number of candidates that may still be proved */
     bool found;
     candidate best;
     nh_proof proof;

@@ -13,11 +13,11 @@ typedef struct {
     const nh_kinetic *k;
     const nh_options *options;
     nh_library l;
-    size_t m, n, d;         /* coordinates, columns, null vectors */
-    double *scale;          /* m: K_ii^(-1/2), or 1 */
-    double *vector, *size;  /* n x d null vectors; n: root mean square of each scaled column */
+    size_t m, n, d;        /* coordinates, columns, null vectors */
+    double *scale;         /* m: K_ii^(-1/2), or 1 */
+    double *vector, *size; /* n x d null vectors; n: root mean square of each scaled column */
     double last_null, first_other;
-    size_t terms;           /* of all columns together */
+    size_t terms; /* of all columns together */
     nh_ex *b;
     size_t *component, *column;
 } nh_generator_fit;

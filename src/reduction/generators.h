@@ -14,8 +14,8 @@
 typedef struct {
     size_t count;
     nh_generator *generator;
-    int level;               /* level of the library that was enough, or of the last one */
-    size_t columns;          /* number of columns of that library */
+    int level;      /* level of the library that was enough, or of the last one */
+    size_t columns; /* number of columns of that library */
     double last_null, first_other;
 } nh_generators;
 

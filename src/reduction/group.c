@@ -56,8 +56,8 @@ static void name_group(nh_group *g, const nh_options *options)
     if (exact) nh_algebra_balance(algebra, unit);
     for (size_t a = 0; a < d; a++) t[a * (d + 1)] = exact ? unit[a] : 1;
     nh_algebra balanced = nh_algebra_change(algebra, d, t, NULL);
-    nh_algebra_report_init(&g->report, exact ? &balanced : algebra, exact ? rounding : options->group,
-                           options->cluster, (size_t)options->ideals, (uint64_t)options->seed);
+    nh_algebra_report_init(&g->report, exact ? &balanced : algebra, exact ? rounding : options->group, options->cluster,
+                           (size_t)options->ideals, (uint64_t)options->seed);
     for (size_t i = 0; i < g->report.pieces && exact; i++)
         for (size_t j = 0; j < d * g->report.piece[i].dimension; j++) g->report.piece[i].basis[j] *= unit[j % d];
     nh_algebra_clear(&balanced);

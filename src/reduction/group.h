@@ -7,14 +7,14 @@
 
 typedef struct {
     const nh_kinetic *kinetic;
-    nh_jets *jets;              /* NULL where there is no metric, explicit time, or constraints that are not affine */
+    nh_jets *jets; /* NULL where there is no metric, explicit time, or constraints that are not affine */
     nh_generators found;
-    nh_action action;           /* of the closed forms (or of the fields given) */
+    nh_action action; /* of the closed forms (or of the fields given) */
     nh_algebra_report report;
-    bool *closed;               /* per piece of the report: whether it is a circle */
-    char *name;                 /* "SE(2) x SO(2)^3" */
-    bool given;                 /* the user named the fields */
-    size_t missing;             /* number of symmetries, counted near a place, without a closed form */
+    bool *closed;   /* per piece of the report: whether it is a circle */
+    char *name;     /* "SE(2) x SO(2)^3" */
+    bool given;     /* the user named the fields */
+    size_t missing; /* number of symmetries, counted near a place, without a closed form */
     /* some may be no symmetries of the whole configuration space: many-valued on an angle, or without a closed form */
     bool local;
     /* then: the dimension of the subgroup of those that are known to be */

@@ -11,19 +11,19 @@
 typedef struct {
     const nh_reduced_chart *chart;
     const nh_action *action;
-    bool group;                     /* the motion in the group is wanted as well */
-    bool abelian;                   /* all ad_a are zero: M = 1 */
+    bool group;   /* the motion in the group is wanted as well */
+    bool abelian; /* all ad_a are zero: M = 1 */
     size_t inner, d, m;
-    double *ad;                     /* d matrices d x d */
-    bool *acts;                     /* ad_a is not zero */
-    bool *cubic;                    /* ad_a^3 = lambda_a ad_a: its exponential has a closed form */
-    double *square, *lambda;        /* ad_a^2, d matrices; lambda_a */
+    double *ad;                      /* d matrices d x d */
+    bool *acts;                      /* ad_a is not zero */
+    bool *cubic;                     /* ad_a^3 = lambda_a ad_a: its exponential has a closed form */
+    double *square, *lambda;         /* ad_a^2, d matrices; lambda_a */
     double *M, *P, *E, *next, *zeta; /* work */
-    bool direct;                    /* the place itself is integrated beside (x, p, t) */
-    nh_tape *field;                 /* generators at a place */
+    bool direct;                     /* the place itself is integrated beside (x, p, t) */
+    nh_tape *field;                  /* generators at a place */
     nh_tape_work *field_work;
-    double *unit;                   /* d: how far a group coordinate moves places by their size (1 for rotations) */
-    double *e, *before, *spatial;   /* their values; Ad of the factors kept; g' g^-1 */
+    double *unit;                 /* d: how far a group coordinate moves places by their size (1 for rotations) */
+    double *e, *before, *spatial; /* their values; Ad of the factors kept; g' g^-1 */
 } nh_group_flow;
 
 /* `group`: the motion in the group is wanted.  The flow has no chart yet.  The caller clears it. */

@@ -126,8 +126,7 @@ size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *su
     double *a = nh_alloc_array(rows * n + n * n + 1, sizeof *a), *kernel = a + rows * n;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < n; k++) /* the part of [x, subset[i]] along other[k] */
-            for (size_t j = 0; j < n; j++)
-                a[i * d + k + j * rows] = g->c[(other[j] * d + subset[i]) * d + other[k]];
+            for (size_t j = 0; j < n; j++) a[i * d + k + j * rows] = g->c[(other[j] * d + subset[i]) * d + other[k]];
     size_t found = nh_kernel(rows, n, a, small, kernel, NULL, NULL);
     if (!tidy(n, found, kernel)) { /* those that normalise it by themselves */
         memset(kernel, 0, n * n * sizeof *kernel);

@@ -90,10 +90,7 @@ static double relative_size(nh_tape *tape, nh_tape_work *work, const double *z, 
 }
 
 /* A size for e to be compared with: the sum of the moduli of its terms, plus `unit`. */
-static nh_ex size_of(nh_dag *d, nh_ex e, nh_ex unit)
-{
-    return nh_add(d, unit, nh_terms_moduli(d, e));
-}
+static nh_ex size_of(nh_dag *d, nh_ex e, nh_ex unit) { return nh_add(d, unit, nh_terms_moduli(d, e)); }
 
 static double largest_residual(const nh_kinetic *k, size_t n, const nh_ex *e, const nh_ex *unit)
 {

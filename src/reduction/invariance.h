@@ -17,17 +17,17 @@
 
 typedef struct {
     bool holds, proved, all_parameters; /* at the sample points; exactly; for all parameter values */
-    const nh_ex *fixed;                  /* else the parameters that must have their values; NULL: all (nh_proof) */
+    const nh_ex *fixed;                 /* else the parameters that must have their values; NULL: all (nh_proof) */
     double residual;                    /* largest relative violation over the sample points */
 } nh_condition;
 
 /* A field with its components along the coordinates. */
 typedef struct {
-    const char *name;      /* NULL unless the user gave one */
-    nh_ex *component;      /* m */
+    const char *name; /* NULL unless the user gave one */
+    nh_ex *component; /* m */
     nh_condition metric, potential, constraints, forces;
-    bool invariant;        /* do all conditions hold? */
-    bool local;            /* many-valued on an angle: a field on a covering of the configuration space only */
+    bool invariant; /* do all conditions hold? */
+    bool local;     /* many-valued on an angle: a field on a covering of the configuration space only */
 } nh_generator;
 
 /* Writes the m components along the coordinates to the generator (in the kinetic's arena), and checks its

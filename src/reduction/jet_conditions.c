@@ -283,8 +283,8 @@ static size_t kernel_of(const nh_jet_conditions *s, const size_t use[NH_CONDITIO
     return dimension;
 }
 
-size_t nh_jet_conditions_kernel(const nh_jet_conditions *s, bool potential, bool constraints,
-                                size_t dimension, double *basis, double *last, double *first)
+size_t nh_jet_conditions_kernel(const nh_jet_conditions *s, bool potential, bool constraints, size_t dimension,
+                                double *basis, double *last, double *first)
 {
     size_t use[NH_CONDITION_KINDS] = {s->rows[NH_OF_METRIC], potential ? s->rows[NH_OF_POTENTIAL] : 0,
                                       constraints ? s->rows[NH_OF_CONSTRAINTS] : 0};

@@ -38,8 +38,8 @@ bool nh_jet_conditions_at(nh_jet_conditions *conditions, const double *q, const 
 /* The columns' combinations that satisfy the rows of the metric and those asked for: basis (columns x columns at most);
  * returns how many: `dimension`, where that is known (else SIZE_MAX).  The singular values on both sides of the cut,
  * where they are wanted. */
-size_t nh_jet_conditions_kernel(const nh_jet_conditions *conditions, bool potential, bool constraints,
-                                size_t dimension, double *basis, double *last, double *first);
+size_t nh_jet_conditions_kernel(const nh_jet_conditions *conditions, bool potential, bool constraints, size_t dimension,
+                                double *basis, double *last, double *first);
 /* The rows of the metric with a larger threshold: unnecessary jets are removed later. */
 size_t nh_jet_conditions_kernel_generous(const nh_jet_conditions *conditions, double *basis);
 /* From now on the columns are combinations of those so far: basis (columns x kept). */

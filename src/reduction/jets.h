@@ -22,19 +22,19 @@
 #include "reduction/symmetry_count.h"
 
 typedef struct {
-    size_t m, dimension;   /* of the symmetries of K, V and D together */
+    size_t m, dimension;                            /* of the symmetries of K, V and D together */
     size_t of_metric, of_potential, of_constraints; /* of K alone; of K and V; of K and D */
-    size_t orbit;          /* rank of the xi at a generic point */
+    size_t orbit;                                   /* rank of the xi at a generic point */
     /* the dimensions are those counted modulo primes, which no tolerance decides; false: they are ranks of numbers */
     bool exact;
-    double *place;         /* m: q0 */
-    double *jet;           /* (m + m^2) x dimension, at q0: xi, then B column by column */
-    size_t places;         /* ends of the rays */
-    double *end;           /* places x m */
-    double *moved;         /* places x ((m + m^2) x dimension): the same jets there */
-    nh_algebra algebra;    /* C = minus the constants of the fields (left action) */
+    double *place;                 /* m: q0 */
+    double *jet;                   /* (m + m^2) x dimension, at q0: xi, then B column by column */
+    size_t places;                 /* ends of the rays */
+    double *end;                   /* places x m */
+    double *moved;                 /* places x ((m + m^2) x dimension): the same jets there */
+    nh_algebra algebra;            /* C = minus the constants of the fields (left action) */
     double last_null, first_other; /* singular values on both sides of the cut; rows have size one */
-    double closure;        /* largest residual of the brackets */
+    double closure;                /* largest residual of the brackets */
 } nh_jets;
 
 /* Needs kinetic->countable.  NULL with a message when no ray could be followed. */

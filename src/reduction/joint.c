@@ -13,7 +13,7 @@ struct nh_joint_rates {
     const nh_system *system;
     size_t n;
     nh_twist B[NH_MOST_SCREWS];
-    nh_lu *lu;             /* of B^T B */
+    nh_lu *lu; /* of B^T B */
 };
 
 size_t nh_joint_basis(nh_dag *d, const nh_chain *c, const nh_joint *j, nh_twist basis[NH_MOST_SCREWS])

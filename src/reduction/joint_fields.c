@@ -18,7 +18,7 @@ typedef struct {
     nh_twist basis[NH_MOST_SCREWS];
     nh_joint_rates *rates;
     size_t points;
-    nh_ex point[3][3];    /* in the body's frame */
+    nh_ex point[3][3]; /* in the body's frame */
     nh_joint_fields *out;
 } work;
 
@@ -132,7 +132,7 @@ static void fixed_before(work *w)
     nh_dag *d = w->dag;
     nh_pose E = nh_joint_pose(d, c, w->joint), P = w->joint->placement;
     bool own = !is_turned(w); /* otherwise the axes of the ground first: gravity is given in these */
-    for (long body = w->joint->parent;; ) {
+    for (long body = w->joint->parent;;) {
         fixed_in(w, &P, &E, own);
         if (body == NH_GROUND) break;
         const nh_joint *before = &c->joint[c->body[body].joint];

@@ -18,7 +18,7 @@
 
 typedef struct {
     size_t count, m;
-    nh_ex *component;  /* count x m; no two fields are the same expressions */
+    nh_ex *component; /* count x m; no two fields are the same expressions */
 } nh_joint_fields;
 
 /* Empty for a system without bodies. */

@@ -254,7 +254,11 @@ static nh_kinetic *create(const nh_model *model, uint64_t seed, bool metric_alon
     nh_arena *arena = nh_arena_create();
     nh_kinetic *k = nh_arena_alloc(arena, sizeof *k);
     size_t m = model->m, f = model->k;
-    *k = (nh_kinetic){.model = model, .dag = model->dag, .arena = arena, .m = m, .f = f,
+    *k = (nh_kinetic){.model = model,
+                      .dag = model->dag,
+                      .arena = arena,
+                      .m = m,
+                      .f = f,
                       .forced = model->system->has_forces && !metric_alone};
     nh_ex *all = nh_arena_alloc(arena, (3 * m + m * m + f * (m + 2) + 1) * sizeof *all);
     k->q = all;

@@ -14,19 +14,19 @@ typedef struct {
     const nh_model *model;
     nh_dag *dag;
     nh_arena *arena;
-    size_t m, f;           /* coordinates, constraints */
-    nh_ex *q, *v;          /* m symbols each */
-    const char **name;     /* m, of the coordinates */
-    bool *angle, *periodic;  /* m: an angle; one that is at the same place after a turn */
-    bool *dependent;         /* m: named under `dependent:` */
-    nh_ex *K, V, *a;       /* m x m (row-major), m; zeros unless quadratic */
-    nh_ex *force;          /* f: the constraints without poles */
-    nh_ex *omega, *b;      /* f x m (row-major), f; zeros unless affine */
-    const nh_ex *Q;        /* m: forces without a potential */
+    size_t m, f;            /* coordinates, constraints */
+    nh_ex *q, *v;           /* m symbols each */
+    const char **name;      /* m, of the coordinates */
+    bool *angle, *periodic; /* m: an angle; one that is at the same place after a turn */
+    bool *dependent;        /* m: named under `dependent:` */
+    nh_ex *K, V, *a;        /* m x m (row-major), m; zeros unless quadratic */
+    nh_ex *force;           /* f: the constraints without poles */
+    nh_ex *omega, *b;       /* f x m (row-major), f; zeros unless affine */
+    const nh_ex *Q;         /* m: forces without a potential */
     bool quadratic, magnetic, autonomous, forced, affine, linear;
-    bool metric;           /* quadratic, and K positive definite at the sample points */
-    bool invertible;       /* quadratic, and K of full rank there */
-    bool reducible;        /* L = K - V with a metric, linear constraints, no time, no forces */
+    bool metric;     /* quadratic, and K positive definite at the sample points */
+    bool invertible; /* quadratic, and K of full rank there */
+    bool reducible;  /* L = K - V with a metric, linear constraints, no time, no forces */
     /* a metric, no time, constraints that are at most affine: the system has reduced equations, though no connection is
      * used */
     bool general;

@@ -21,16 +21,16 @@
 
 typedef struct {
     const nh_slice *slice;
-    size_t n, d, r;      /* shape, group, dimension of S */
-    nh_ex *chi;          /* d x r */
-    nh_ex *A, *B;        /* d x n; d x n x n */
-    nh_ex *dx, *nu;      /* n; r: symbols x', nu_1, ... */
-    nh_ex *omega, *v;    /* d */
-    nh_ex *Kh, *I;       /* n x n; r x r */
-    nh_ex *C;            /* n x r; 0 where the lifts are orthogonal to S for the kinetic energy */
-    const nh_ex *lifts;  /* the inner product for the lifts, or NULL */
-    nh_ex *mu, *pi;      /* d; n */
-    nh_ex *slope;        /* n: dl/dx^i at constant x' and v */
+    size_t n, d, r;     /* shape, group, dimension of S */
+    nh_ex *chi;         /* d x r */
+    nh_ex *A, *B;       /* d x n; d x n x n */
+    nh_ex *dx, *nu;     /* n; r: symbols x', nu_1, ... */
+    nh_ex *omega, *v;   /* d */
+    nh_ex *Kh, *I;      /* n x n; r x r */
+    nh_ex *C;           /* n x r; 0 where the lifts are orthogonal to S for the kinetic energy */
+    const nh_ex *lifts; /* the inner product for the lifts, or NULL */
+    nh_ex *mu, *pi;     /* d; n */
+    nh_ex *slope;       /* n: dl/dx^i at constant x' and v */
 } nh_lagrange_poincare;
 
 /* lifts: an inner product of the generators (d x d) to which the lifts are orthogonal, or NULL: the kinetic energy.

@@ -26,10 +26,10 @@ enum { NH_LIBRARY_LEVELS = 7 };
 
 typedef struct {
     size_t count, capacity;
-    nh_ex *function;      /* b_k */
-    size_t *component;    /* the field is b_k d/dq^component */
+    nh_ex *function;   /* b_k */
+    size_t *component; /* the field is b_k d/dq^component */
     double *complexity;
-    const nh_ex **whole;  /* NULL, or per column: NULL, or the m components of a field that is not of this form */
+    const nh_ex **whole; /* NULL, or per column: NULL, or the m components of a field that is not of this form */
 } nh_library;
 
 /* Products of at most `together` functions; `jets` may be NULL. */

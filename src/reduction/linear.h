@@ -14,10 +14,10 @@
 #include "reduction/reduced.h"
 
 typedef struct {
-    size_t count;        /* 0: there is no such equation */
-    size_t *index;       /* count: which of the momenta p of the reduced equations */
-    nh_ex *N;            /* count x count, row-major, functions of x */
-    double off;          /* largest of the terms that must vanish, relative */
+    size_t count;  /* 0: there is no such equation */
+    size_t *index; /* count: which of the momenta p of the reduced equations */
+    nh_ex *N;      /* count x count, row-major, functions of x */
+    double off;    /* largest of the terms that must vanish, relative */
 } nh_linear_momenta;
 
 /* Memory: the kinetic's arena. */

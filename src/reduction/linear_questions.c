@@ -182,7 +182,7 @@ static bool chaplygin(nh_linear_system *s, const nh_kinetic *k, const nh_action 
     if (!nh_slice_nice(action, along_group, y)) return refuse(s, "no slice at round numbers is regular");
     nh_slice_init(slice, action, shape, along_group, y);
     for (size_t a = 0; a < action->d; a++)
-        if (!holds_for_all(k, &action->generator[a])) 
+        if (!holds_for_all(k, &action->generator[a]))
             return refuse(s, "the symmetry group depends on the values of parameters");
     if (!nh_chaplygin_init(c, slice, &none))
         return refuse(s, "the orbits of the group meet the constraint distribution");

@@ -16,28 +16,28 @@
 #include "classify/linear_family.h"
 #include "reduction/kinetic.h"
 
-#define NH_LINEAR_QUESTION_TABLE(X)                                      \
-    X(NH_OF_CURRENTS,        currents)                                   \
-    X(NH_OF_MEASURE,         measure)                                    \
-    X(NH_OF_HAMILTONIZATION, hamiltonization)                            \
-    X(NH_OF_SYMMETRIES,      symmetries)                                 \
-    X(NH_OF_INTEGRABILITY,   constraints)
+#define NH_LINEAR_QUESTION_TABLE(X)                                                                                    \
+    X(NH_OF_CURRENTS, currents)                                                                                        \
+    X(NH_OF_MEASURE, measure)                                                                                          \
+    X(NH_OF_HAMILTONIZATION, hamiltonization)                                                                          \
+    X(NH_OF_SYMMETRIES, symmetries)                                                                                    \
+    X(NH_OF_INTEGRABILITY, constraints)
 
 typedef enum {
 #define X(name, word) name,
     NH_LINEAR_QUESTION_TABLE(X)
 #undef X
-    NH_LINEAR_QUESTIONS
+        NH_LINEAR_QUESTIONS
 } nh_linear_question;
 
 const char *nh_linear_question_name(nh_linear_question question);
 
 typedef struct {
     nh_arena *arena;
-    const char *obstacle;    /* the reason why it cannot be asked, or NULL */
+    const char *obstacle; /* the reason why it cannot be asked, or NULL */
     nh_linear_family family;
-    nh_kinetic *kinetic;     /* or NULL */
-    const char *group;       /* hamiltonization: what is divided out */
+    nh_kinetic *kinetic; /* or NULL */
+    const char *group;   /* hamiltonization: what is divided out */
 } nh_linear_system;
 
 /* For a model whose parameters have arbitrary values: the equations hold for all values.  Not for the question of

@@ -18,7 +18,7 @@ typedef struct {
     const nh_slice *s;
     nh_dag *dag;
     size_t n;
-    nh_ex *T, *Theta;        /* T[(k*n + i)*n + j] */
+    nh_ex *T, *Theta; /* T[(k*n + i)*n + j] */
     nh_measure_conditions *out;
 } work;
 

@@ -15,15 +15,15 @@
 #include "reduction/slice.h"
 
 typedef struct {
-    bool factor;             /* of a conformal factor; else of the measure */
+    bool factor; /* of a conformal factor; else of the measure */
     nh_parameter_zeros where;
 } nh_measure_condition;
 
 typedef struct {
-    bool known;              /* false: an expression is too large */
-    bool rare;               /* then: for almost all parameters there is no measure, proved */
+    bool known;                    /* false: an expression is too large */
+    bool rare;                     /* then: for almost all parameters there is no measure, proved */
     bool never, never_hamiltonian; /* for positive values of the parameters no measure, or no factor: proved */
-    size_t count;            /* conditions, all of which must hold; those that are the same only once */
+    size_t count;                  /* conditions, all of which must hold; those that are the same only once */
     nh_measure_condition *condition;
 } nh_measure_conditions;
 

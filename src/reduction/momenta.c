@@ -210,8 +210,8 @@ static bool depends(const search *s, const nh_momenta *all)
         for (size_t j = 0; j < n; j++) e[at++] = nh_diff_along(d, J, m, k->q, X + j * m);
         for (size_t j = 0; j < chart->n; j++) e[at++] = nh_diff(d, J, chart->w[j]);
     }
-    bool old = nh_kinetic_rank(k, rows, columns, e, &with) &&
-               nh_kinetic_rank(k, rows - 1, columns, e, &without) && with == without;
+    bool old = nh_kinetic_rank(k, rows, columns, e, &with) && nh_kinetic_rank(k, rows - 1, columns, e, &without) &&
+               with == without;
     nh_free(e);
     nh_free(X);
     return old;

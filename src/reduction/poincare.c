@@ -13,11 +13,11 @@ typedef struct {
     const nh_slice *s;
     size_t m, n, d, f;
     double *K, *dK, *omega, *domega, *dV;
-    double *A, *dA, *B;     /* B[(a*n + i)*n + j] */
-    double *chi;            /* d x r */
+    double *A, *dA, *B; /* B[(a*n + i)*n + j] */
+    double *chi;        /* d x r */
     size_t r;
     double *u, *du, *momentum, *rate; /* m each: (x', zeta), its derivative, Kf u, (Kf u)' */
-    double *v;              /* d */
+    double *v;                        /* d */
     /* m each: the sums of the moduli of their terms, with which residuals are compared */
     double *of_momentum, *of_rate;
     const double *lifts; /* inner product of the generators for the lifts; NULL: that of the kinetic energy */

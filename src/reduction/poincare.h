@@ -28,14 +28,14 @@
 #include "reduction/slice.h"
 
 typedef struct {
-    size_t places;           /* compared at */
-    size_t dimension;        /* of S */
+    size_t places;    /* compared at */
+    size_t dimension; /* of S */
     /* largest residuals, each relative to the sum of the moduli of its terms */
     double one_vertical, one_horizontal, stages_vertical, stages_horizontal;
     /* by stages against the bracket itself, relative to the longest of vectors of these lengths */
     double bracket;
-    double euler_poincare;   /* by stages against ad*, relative to the largest sum of the moduli of its terms */
-    double curvature;        /* largest |B| */
+    double euler_poincare; /* by stages against ad*, relative to the largest sum of the moduli of its terms */
+    double curvature;      /* largest |B| */
 } nh_poincare;
 
 /* With velocities of the sample points.  lifts: an inner product of the generators (d x d) to which the lifts are

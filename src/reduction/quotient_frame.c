@@ -11,7 +11,7 @@
 struct nh_frame_motion {
     const nh_slice *slice;
     nh_bordered *bordered;
-    nh_tape *tape;            /* generators and their derivatives: e_a^s, then d_r e_a^s */
+    nh_tape *tape; /* generators and their derivatives: e_a^s, then d_r e_a^s */
     nh_tape_work *work;
     double *e, *q, *v, *a, *frame;
 };

@@ -30,8 +30,8 @@ static bool move(nh_flows *flows, size_t d, const double *t, double *q)
 typedef struct {
     nh_group_flow f;
     nh_flows *flows;
-    nh_atlas *atlas;          /* NULL: a single chart */
-    double *factor;           /* of finished parts: d numbers each, the first one outermost */
+    nh_atlas *atlas;                  /* NULL: a single chart */
+    double *factor;                   /* of finished parts: d numbers each, the first one outermost */
     size_t count, capacity, failures; /* number of new charts for the same output */
     double *state, *left, *least;
     nh_reconstruction *out;

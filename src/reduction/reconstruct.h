@@ -29,18 +29,18 @@ typedef struct {
 } nh_reconstruct_how;
 
 typedef struct {
-    size_t count, m, size; /* output times; coordinates; n + r */
-    double *time, *q;      /* count; count x m (NULL without the group) */
-    double *z;             /* count x (n + r): x and p along the motion, in the chart of that time */
-    double *zeta;          /* count x d */
-    double *energy;        /* count */
-    double *energy_size;   /* count: the largest term of the energy so far, with which its drift is compared */
-    size_t restarts;       /* of the coordinates of the group */
-    size_t charts;         /* changes of the chart */
-    size_t first_chart;    /* number of outputs before the first change of the chart */
+    size_t count, m, size;   /* output times; coordinates; n + r */
+    double *time, *q;        /* count; count x m (NULL without the group) */
+    double *z;               /* count x (n + r): x and p along the motion, in the chart of that time */
+    double *zeta;            /* count x d */
+    double *energy;          /* count */
+    double *energy_size;     /* count: the largest term of the energy so far, with which its drift is compared */
+    size_t restarts;         /* of the coordinates of the group */
+    size_t charts;           /* changes of the chart */
+    size_t first_chart;      /* number of outputs before the first change of the chart */
     const nh_reduced *first; /* the equations of the first chart */
     bool complete;
-    bool dependent;        /* it ended where the constraints become dependent, and the equations do not continue */
+    bool dependent; /* it ended where the constraints become dependent, and the equations do not continue */
     char note[256];
     long evaluations, steps;
     double effort, seconds; /* of the integration, without making charts */

@@ -151,7 +151,7 @@ struct nh_reduced_flow {
     size_t terms;
     double *M, *in, *out, *regular, *term, time;
     double sign[2], limit[2], fixed[2];
-    bool constant[2];             /* a guard that does not depend on x */
+    bool constant[2]; /* a guard that does not depend on x */
 };
 
 static bool is_constant(const nh_reduced *o, const nh_guard *g)

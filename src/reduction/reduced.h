@@ -15,26 +15,26 @@
 typedef struct {
     size_t rows, columns;
     nh_ex *e;
-    size_t *chosen;      /* rows */
-    double *unit;        /* columns: makes lengths and angles comparable */
+    size_t *chosen; /* rows */
+    double *unit;   /* columns: makes lengths and angles comparable */
 } nh_guard;
 
 typedef struct {
     const nh_kinetic *kinetic;
-    size_t n, r, d;      /* shape coordinates, velocities, dimension of the group divided out */
-    nh_ex *x, *w;        /* symbols */
+    size_t n, r, d;        /* shape coordinates, velocities, dimension of the group divided out */
+    nh_ex *x, *w;          /* symbols */
     const char **momentum; /* r names of the p */
-    nh_ex *M;            /* r x r, row-major */
-    nh_ex *dx, *F, *zeta; /* n, r, d as functions of (x, w) */
-    nh_ex energy;        /* of (x, w); of a master equation with affine constraints the moving energy */
-    bool conservative;   /* it is conserved */
-    bool plain;          /* M = 1: the p are the velocities w */
-    bool timed;          /* the time t occurs */
+    nh_ex *M;              /* r x r, row-major */
+    nh_ex *dx, *F, *zeta;  /* n, r, d as functions of (x, w) */
+    nh_ex energy;          /* of (x, w); of a master equation with affine constraints the moving energy */
+    bool conservative;     /* it is conserved */
+    bool plain;            /* M = 1: the p are the velocities w */
+    bool timed;            /* the time t occurs */
     nh_ex t;
     /* Where F has no formula: writes its r values at (x, w); false where it cannot be computed.  NULL: F has one. */
     bool (*force)(void *context, double t, const double *x, const double *w, double *F);
     void *context;
-    nh_guard guard[2];   /* of the constraints, and of the generators on the slice; rows 0: none */
+    nh_guard guard[2]; /* of the constraints, and of the generators on the slice; rows 0: none */
 } nh_reduced;
 
 /* A new one with symbols for the velocities (names[i], or NULL for u1, u2, ...) and everything zero; memory: the

@@ -14,7 +14,7 @@
 typedef struct {
     size_t columns, conditions, values; /* rows of A, rows of B */
     size_t room, space;
-    double *a, *b;                      /* row by row */
+    double *a, *b; /* row by row */
 } nh_relative;
 
 /* A new row of zeros; it moves when the next one is made. */

@@ -101,8 +101,8 @@ static void forces_of(const nh_chaplygin *f, nh_ex *out)
         out[i] = nh_int(f->dag, 0);
         for (size_t l = 0; l < n; l++)
             for (size_t j = 0; j < n; j++)
-                out[i] = plus(f->dag, out[i], f->U[(l * n + i) * n + j],
-                              nh_mul(f->dag, k->v[shape[l]], k->v[shape[j]]));
+                out[i] =
+                    plus(f->dag, out[i], f->U[(l * n + i) * n + j], nh_mul(f->dag, k->v[shape[l]], k->v[shape[j]]));
     }
 }
 
@@ -379,12 +379,11 @@ bool nh_second_init(nh_second *s, const nh_chaplygin *f, size_t d, const nh_ex *
     bool conserved = nh_second_candidates(f, d, field, options, c) == d;
     nh_free(c);
     if (conserved && s->invariance <= options->group) return true;
-    nh_fail(
-        error, NH_INPUT, "",
-        !conserved
-            ? "the first stage does not conserve the momentum of the second group (relative residual %.2g)"
-            : "the gyroscopic or magnetic form is not invariant under the second group (relative residual %.2g)",
-        conserved ? s->invariance : s->weak);
+    nh_fail(error, NH_INPUT, "",
+            !conserved
+                ? "the first stage does not conserve the momentum of the second group (relative residual %.2g)"
+                : "the gyroscopic or magnetic form is not invariant under the second group (relative residual %.2g)",
+            conserved ? s->invariance : s->weak);
     return nh_error_hint(error, "a cyclic coordinate of the reduced metric is not sufficient");
 }
 

@@ -33,20 +33,20 @@
 
 typedef struct {
     const nh_chaplygin *first;
-    nh_kinetic *hat;        /* Khat and V on the shape space, as a system of its own */
-    nh_action action;       /* N on the shape space */
-    nh_slice slice;         /* of the shape space */
-    size_t n, d;            /* n shape coordinates of the second stage; dimension of N */
+    nh_kinetic *hat;               /* Khat and V on the shape space, as a system of its own */
+    nh_action action;              /* N on the shape space */
+    nh_slice slice;                /* of the shape space */
+    size_t n, d;                   /* n shape coordinates of the second stage; dimension of N */
     nh_ex *inertia, *Av, *Kt, *Bv; /* d x d, d x n, n x n, d x n x n */
     /* n x n x n: the gyroscopic form on vectors horizontal for Av, U_kij x'^k; what m adds to it does not matter for a
        measure */
     nh_ex *U;
-    nh_reduced reduced;     /* w = (x', v), p = (pt, m) */
-    size_t orbit;           /* dimension of a generic coadjoint orbit of N */
+    nh_reduced reduced;              /* w = (x', v), p = (pt, m) */
+    size_t orbit;                    /* dimension of a generic coadjoint orbit of N */
     double invariance, weak, strong; /* largest relative residuals of (i) for Ups, (ii), (ii') */
     bool abelian;
-    bool magnetic;          /* Lhat has a part ahat x' */
-    const double *pivots;   /* as of a slice */
+    bool magnetic;        /* Lhat has a part ahat x' */
+    const double *pivots; /* as of a slice */
 } nh_second;
 
 /* Combinations c (count columns of length `candidates`) of fields that satisfy the weak condition (ii): echelon form;

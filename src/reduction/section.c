@@ -98,7 +98,7 @@ nh_proof nh_section_coefficients(const nh_kinetic *k, size_t n, const nh_ex *e, 
 /* ---- all of them ---- */
 
 nh_ex *nh_section_relations(const nh_kinetic *k, size_t columns, size_t rows, const nh_ex *entry,
-                             const nh_options *options, size_t *count)
+                            const nh_options *options, size_t *count)
 {
     const nh_model *o = k->model;
     const nh_chart *chart = o->chart;
@@ -109,8 +109,8 @@ nh_ex *nh_section_relations(const nh_kinetic *k, size_t columns, size_t rows, co
     memcpy(variable + k->m, k->v, k->m * sizeof *e);
     for (size_t i = 0; i < chart->n && chart->quasi; i++) variable[variables++] = chart->w[i];
     if (!k->autonomous) variable[variables++] = o->system->t;
-    nh_relation_columns q = {k->dag, columns, rows, e, variables, variable, 0, o->parameter,
-                             (size_t)options->proof_terms};
+    nh_relation_columns q = {
+        k->dag, columns, rows, e, variables, variable, 0, o->parameter, (size_t)options->proof_terms};
     for (size_t i = 0; i < columns * rows; i++) e[i] = nh_model_values(o, entry[i]);
     nh_relation_space *all = columns && rows ? nh_relation_space_of(k->arena, &q) : NULL;
     *count = all && !all->obstacle ? all->proved : 0;
@@ -126,7 +126,7 @@ nh_ex *nh_section_relations(const nh_kinetic *k, size_t columns, size_t rows, co
 }
 
 bool nh_section_combinations(const nh_kinetic *k, size_t columns, size_t rows, const nh_ex *entry,
-                              const nh_options *options, double *c, size_t *count)
+                             const nh_options *options, double *c, size_t *count)
 {
     static const double rounding = 1e-14;
     const nh_ex *exact = nh_section_relations(k, columns, rows, entry, options, count);

@@ -28,10 +28,10 @@ size_t nh_section_pivot(size_t n, const double *v);
  * velocities (also of the chart), and time.  NULL where this is not known: the formulas have no residues, or relations
  * were not confirmed. */
 nh_ex *nh_section_relations(const nh_kinetic *kinetic, size_t columns, size_t rows, const nh_ex *entry,
-                             const nh_options *options, size_t *count);
+                            const nh_options *options, size_t *count);
 /* The same as doubles into c (columns x count), in reduced echelon form from the first column on; false: not known. */
 bool nh_section_combinations(const nh_kinetic *kinetic, size_t columns, size_t rows, const nh_ex *entry,
-                              const nh_options *options, double *c, size_t *count);
+                             const nh_options *options, double *c, size_t *count);
 
 /* Is the number in front of it negative? */
 bool nh_section_negative(const nh_dag *dag, nh_ex e);

@@ -25,8 +25,8 @@ typedef struct {
     nh_ex *E;              /* m x d: generators on the slice, E[s*d + a] */
     nh_ex *K;              /* m x m in the frame, row-major; shape first */
     nh_ex V;
-    nh_ex *omega;          /* f x m in the frame */
-    nh_ex *a, *b;          /* m, f: Fr^T a and b of L and of affine constraints */
+    nh_ex *omega; /* f x m in the frame */
+    nh_ex *a, *b; /* m, f: Fr^T a and b of L and of affine constraints */
     /* m: the place for which linear systems are eliminated; NULL: for all the sample points together */
     const double *pivots;
 } nh_slice;

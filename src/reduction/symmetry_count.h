@@ -16,9 +16,9 @@
 #include "reduction/kinetic.h"
 
 typedef struct {
-    const char *obstacle; /* why nothing is known, or NULL */
+    const char *obstacle;                                      /* why nothing is known, or NULL */
     size_t of_metric, of_potential, of_constraints, dimension; /* upper bounds, as in nh_jets */
-    size_t orbit;         /* rank of the xi */
+    size_t orbit;                                              /* rank of the xi */
 } nh_symmetry_count;
 
 /* Needs kinetic->countable. */

@@ -31,8 +31,8 @@ static size_t rates(size_t m, size_t n, const double *J, double *row)
 {
     static const double small = 1e-6;
     size_t square = m * m, count = 0;
-    double *sum = nh_alloc_array(2 * square + 4 * m + n + n * n + 1, sizeof *sum), *v = sum + square,
-           *re = v + square, *im = re + m, *image = im + m, *own = image + m, *basis = own + n;
+    double *sum = nh_alloc_array(2 * square + 4 * m + n + n * n + 1, sizeof *sum), *v = sum + square, *re = v + square,
+           *im = re + m, *image = im + m, *own = image + m, *basis = own + n;
     for (size_t i = 0; i < n; i++)
         for (size_t p = 0; p < square; p++) sum[p] += J[i * square + p] * (1 + sqrt(2.0 + (double)i));
     bool good = nh_eigen(m, sum, re, im, v);

@@ -9,16 +9,16 @@
 
 typedef struct {
     const nh_kinetic *kinetic;
-    size_t steps;          /* number of steps that may still be made along lines */
-    size_t m, h, size;     /* h = m(m+1)/2; size = m + m^2: length of a jet */
-    nh_tape *tape;         /* K, dK, ddK, packed */
+    size_t steps;      /* number of steps that may still be made along lines */
+    size_t m, h, size; /* h = m(m+1)/2; size = m + m^2: length of a jet */
+    nh_tape *tape;     /* K, dK, ddK, packed */
     nh_tape_work *work;
-    double *scale;         /* m */
-    double factor;         /* of the metric: 1/l^2 */
+    double *scale; /* m */
+    double factor; /* of the metric: 1/l^2 */
     double *raw, *q;
-    double *K, *dK;        /* m^2; dK[i + m*(j + m*k)] = d_k K_ij; scaled */
-    double *Kinv, *Gamma;  /* m^2; Gamma[i + m*(j + m*k)] */
-    double *G, *dG;        /* along a direction X: Gamma^i_jk X^k (m^2); its derivative by q^l, dG[i + m*(j + m*l)] */
+    double *K, *dK;       /* m^2; dK[i + m*(j + m*k)] = d_k K_ij; scaled */
+    double *Kinv, *Gamma; /* m^2; Gamma[i + m*(j + m*k)] */
+    double *G, *dG;       /* along a direction X: Gamma^i_jk X^k (m^2); its derivative by q^l, dG[i + m*(j + m*l)] */
     double *first, *dfirst;
 } nh_transport;
 

@@ -21,45 +21,45 @@ typedef struct {
     size_t variables;
     nh_ex variable[NH_BOX_VARIABLES];
     double low[NH_BOX_VARIABLES], high[NH_BOX_VARIABLES];
-    size_t degree, words;     /* the total degree */
-    nh_ex *word;              /* the functions that are multiplied by the series */
-    double *coefficient;      /* of term z for word i: coefficient[i * stride + z] */
+    size_t degree, words; /* the total degree */
+    nh_ex *word;          /* the functions that are multiplied by the series */
+    double *coefficient;  /* of term z for word i: coefficient[i * stride + z] */
     size_t stride;
     /* which product of T_k term z is: index[z * variables + j], stride x variables; NULL: T_z, z = 0 .. degree */
     const unsigned char *index;
     /* in several variables: |Gamma(Phi)| is at most this on the box, for velocities of the chart up to 1 */
     double bound;
-    const char *equation;     /* a linear equation of second order that they satisfy; NULL: not known, or too long */
+    const char *equation; /* a linear equation of second order that they satisfy; NULL: not known, or too long */
 } nh_series;
 
 typedef struct {
-    const char *name;         /* Phi1, Phi2, ... */
-    const char *meaning;      /* "energy", "minus the momentum of x", "a multiple of the energy", or "" */
-    bool energy;              /* it is a multiple of the energy */
-    nh_ex phi;                /* in the chart */
-    nh_ex in_velocities;      /* in t, q, q' and parameters */
+    const char *name;    /* Phi1, Phi2, ... */
+    const char *meaning; /* "energy", "minus the momentum of x", "a multiple of the energy", or "" */
+    bool energy;         /* it is a multiple of the energy */
+    nh_ex phi;           /* in the chart */
+    nh_ex in_velocities; /* in t, q, q' and parameters */
     bool has_in_velocities;
-    bool exact;               /* every coefficient was recognised */
-    nh_letters letters;       /* numbers inside of its terms that have names */
+    bool exact;         /* every coefficient was recognised */
+    nh_letters letters; /* numbers inside of its terms that have names */
     double quotient, heldout;
     nh_proof proof;
-    bool asked;               /* were the coefficients refined with many digits?  */
-    bool moved;               /* and did the refinement give another combination than doubles had? */
-    double refined;           /* digits to which the rate cancels then, -1 when this could not be computed */
-    double printed_digits;    /* the digits to which the current cancels with its coefficients as printed */
+    bool asked;            /* were the coefficients refined with many digits?  */
+    bool moved;            /* and did the refinement give another combination than doubles had? */
+    double refined;        /* digits to which the rate cancels then, -1 when this could not be computed */
+    double printed_digits; /* the digits to which the current cancels with its coefficients as printed */
     nh_independence independence;
     double fraction;
-    nh_rank rank;             /* how independence was decided; undecided: by doubles */
-    const char *relation;     /* for a dependent one: "Phi3^2 = ...", or NULL */
+    nh_rank rank;         /* how independence was decided; undecided: by doubles */
+    const char *relation; /* for a dependent one: "Phi3^2 = ...", or NULL */
     /* in terms of currents that the system's file knows, in brackets: "Phi4 = [Phi3]/a^2"; or NULL */
     const char *known;
-    const char *doc;          /* what the file says of the known current of which it is a multiple; or NULL */
+    const char *doc; /* what the file says of the known current of which it is a multiple; or NULL */
     bool has_symmetry, local;
-    bool on_both;             /* of two branches: as printed, current and field hold on the other one too */
-    const char *region;       /* of a piece: where it holds, "for x > 0" */
-    bool counted;             /* of a piece: it holds on the sides on which integrals are counted (count/one_side.h) */
-    bool to_the_end;          /* of a piece: motions end where its region does, at walls where they have an impulse */
-    const nh_series *series;  /* NULL for a closed form */
+    bool on_both;            /* of two branches: as printed, current and field hold on the other one too */
+    const char *region;      /* of a piece: where it holds, "for x > 0" */
+    bool counted;            /* of a piece: it holds on the sides on which integrals are counted (count/one_side.h) */
+    bool to_the_end;         /* of a piece: motions end where its region does, at walls where they have an impulse */
+    const nh_series *series; /* NULL for a closed form */
     nh_symmetry symmetry;
     nh_drift drift;
 } nh_current;
@@ -90,15 +90,15 @@ typedef struct {
 /* An integral that is a function of the others, and without which not all integrals are polynomials of the list. */
 typedef struct {
     nh_current current;
-    size_t degree;            /* in the velocities */
+    size_t degree; /* in the velocities */
 } nh_further_integral;
 
 /* The null vectors of a sampled problem: combinations of columns that are polynomials in the velocities. */
 typedef struct {
     size_t degree, columns, dimension;
-    bool timely;              /* t occurs */
+    bool timely; /* t occurs */
     nh_ex *column;
-    double *vector;           /* columns x dimension */
+    double *vector; /* columns x dimension */
 } nh_sampled_space;
 
 /* The null vectors compared with the counted space, where the count is complete to their degree: the space is spanned
@@ -106,7 +106,7 @@ typedef struct {
 typedef struct {
     bool compared, agrees;
     size_t degree, products;
-    double angle;             /* the largest distance of a null vector from the space */
+    double angle; /* the largest distance of a null vector from the space */
 } nh_counted_space;
 
 /* What is true of a function that the system file calls a current (`known: currents`), or none (`not_conserved`): a
@@ -126,11 +126,11 @@ typedef struct {
     const char *out_of_reach; /* why the search need not find it, or NULL */
     bool denied;              /* it is one of `not_conserved` */
     nh_stated_verdict verdict;
-    const char *relation;     /* "[Phi3] = a^2*Phi4", the file's name in brackets; NULL: none was found */
+    const char *relation;          /* "[Phi3] = a^2*Phi4", the file's name in brackets; NULL: none was found */
     const char *region, *obstacle; /* where it holds; why nothing is decided; or NULL */
     bool proved;
-    double digits;            /* to which the rate cancels, where it is conserved */
-    double *state, rate;      /* where it is not: model->width values (t, q, w, u), or NULL, and the rate there */
+    double digits;       /* to which the rate cancels, where it is conserved */
+    double *state, rate; /* where it is not: model->width values (t, q, w, u), or NULL, and the rate there */
 } nh_stated;
 
 /* An option that excluded something, and the value from which on it would not; option: NULL: nothing was excluded. */
@@ -149,13 +149,13 @@ typedef struct {
     /* sectors: parts that were solved separately; found: number of new independent currents */
     size_t columns, sectors, dimension, found;
     double gap, seconds;
-    bool skipped, undecided;          /* skipped: too large; undecided: likely null vectors without a certificate */
-    nh_limit limit;                   /* of a stage that was skipped */
+    bool skipped, undecided; /* skipped: too large; undecided: likely null vectors without a certificate */
+    nh_limit limit;          /* of a stage that was skipped */
 } nh_stage_record;
 
 typedef struct {
     double *value;
-    nh_ex *recognised;        /* per unknown: an expression, or 0 */
+    nh_ex *recognised; /* per unknown: an expression, or 0 */
     const nh_hit *hit;
 } nh_special;
 
@@ -165,11 +165,11 @@ typedef struct {
 
 /* A curve of a figure: y over x; a path has a heading where one is drawn. */
 typedef struct {
-    const char *name;         /* "E_T", "k = 2", "E_T, k = 2" */
-    size_t quantity;          /* of the request; of a path 0 */
-    double value;             /* value of the varied parameter; NAN: none is varied */
+    const char *name; /* "E_T", "k = 2", "E_T, k = 2" */
+    size_t quantity;  /* of the request; of a path 0 */
+    double value;     /* value of the varied parameter; NAN: none is varied */
     size_t count;
-    double *x, *y, *heading;  /* heading: NULL: none is drawn */
+    double *x, *y, *heading; /* heading: NULL: none is drawn */
 } nh_figure_curve;
 
 typedef struct {
@@ -182,23 +182,23 @@ struct nh_analysis {
     nh_arena *arena;
     /* the command that repeats the analysis; command and analysis_path may be NULL */
     const char *command, *system_path, *analysis_path;
-    const char *system_words;   /* how a command line names the system; NULL: by its path */
+    const char *system_words; /* how a command line names the system; NULL: by its path */
     nh_system *system;
-    nh_analysis_file *analysis;    /* NULL: chosen by the program */
-    struct nh_theory *theory;  /* where it was requested; else NULL */
-    nh_model *model, *other;  /* other: the coordinate chart beside a quasi one, or NULL */
+    nh_analysis_file *analysis; /* NULL: chosen by the program */
+    struct nh_theory *theory;   /* where it was requested; else NULL */
+    nh_model *model, *other;    /* other: the coordinate chart beside a quasi one, or NULL */
     nh_distribution constraint; /* the kind of constraint */
     /* of a quadratic constraint: "z' < 0", the branch of the computation, and "z' > 0"; NULL: there are no branches */
     const char *branch, *other_branch;
-    bool equations_on_both;     /* as printed, the equations hold on the other branch too */
+    bool equations_on_both; /* as printed, the equations hold on the other branch too */
     nh_options options;
-    double pace;                /* Omega of problem/time_scale.h where the system was found fast (or long), else 0 */
+    double pace; /* Omega of problem/time_scale.h where the system was found fast (or long), else 0 */
     nh_route route;
-    const char *ansatz_note;  /* description of what was tried */
+    const char *ansatz_note; /* description of what was tried */
     /* beyond: points where the chart's pivot is near zero, from the multiplier form */
     size_t samples, beyond, rejected;
     size_t stages, stage_capacity;
-    nh_stage_record *stage;          /* of the staged search; empty with an analysis file */
+    nh_stage_record *stage; /* of the staged search; empty with an analysis file */
     nh_spectrum current, symmetry;
     bool routes_compared, routes_agree;
     double routes_angle;
@@ -210,8 +210,8 @@ struct nh_analysis {
     size_t count, capacity, independent, local_maximum;
     /* rows of the search (staged_search.h), bit i for row i: left out by a developer; those that found something */
     uint64_t left_out, used;
-    size_t open;              /* null vectors that may be true, but have no certificate */
-    const char *letter;       /* first letters of the names of currents, as Phi in Phi1; see nh_currents_name */
+    size_t open;        /* null vectors that may be true, but have no certificate */
+    const char *letter; /* first letters of the names of currents, as Phi in Phi1; see nh_currents_name */
     nh_current *found;
     /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
     size_t pieces;
@@ -220,31 +220,31 @@ struct nh_analysis {
      * that the count uses do not give them.  At most NH_MOST_FURTHER */
     size_t furthers;
     nh_further_integral *further;
-    size_t relations;         /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
+    size_t relations; /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
     nh_further_relation *relation;
-    size_t stateds;           /* of the system file, in its order */
+    size_t stateds; /* of the system file, in its order */
     nh_stated *stated;
-    size_t almosts;           /* nearly conserved quantities that the search found: at most NH_MOST_ALMOST */
+    size_t almosts; /* nearly conserved quantities that the search found: at most NH_MOST_ALMOST */
     nh_near_current *almost;
     const struct nh_explicit_motion *motion; /* as formulas (search/explicit_motion.h); NULL: none is known */
     /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
     size_t integrals;
-    size_t *integral;         /* found[integral[i]] */
+    size_t *integral; /* found[integral[i]] */
     nh_completeness completeness[NH_COMPLETENESS_KINDS];
     nh_count_memory *counted; /* while the search goes on */
     bool postponed;           /* there are new series, which the search left to the construction */
     nh_verdict verdict;
-    nh_search search;         /* the verdict cannot be NONE where the search was cut */
-    nh_observables tracks;         /* their values are in validation->watch, row by row */
+    nh_search search;      /* the verdict cannot be NONE where the search was cut */
+    nh_observables tracks; /* their values are in validation->watch, row by row */
     size_t figures;
-    nh_figure *figure;        /* the expressions that the analysis file asks for */
+    nh_figure *figure;         /* the expressions that the analysis file asks for */
     nh_validation *validation; /* NULL when no motion could be computed */
     size_t warnings;
     const char **warning;
     /* the last words of the warning that the energy is not conserved; NULL: none, or they are long */
     const char *energy_rate;
-    bool partial;             /* the limit of work or time, or the user, ended the search */
-    bool derived;             /* of a system that the search made from the user's (search/other_system.h) */
+    bool partial; /* the limit of work or time, or the user, ended the search */
+    bool derived; /* of a system that the search made from the user's (search/other_system.h) */
     nh_timing timing;
 };
 

@@ -203,7 +203,7 @@ nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_opti
 {
     nh_dag *d = o->dag;
     nh_ex *k = nh_alloc_array(c->count + 1, sizeof *k);
-    bool many = c->count > 1; /* one term has no coefficients to refine */
+    bool many = c->count > 1;           /* one term has no coefficients to refine */
     if (many) refine(o, c, options, f); /* relations of many terms cost more */
     bool hopeless = many && f->refined >= 0 && f->refined < options->digits;
     f->exact = !hopeless && exact_coefficients(o, c, options, k, claim, &f->letters);

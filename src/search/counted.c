@@ -63,16 +63,12 @@ static double degree_of_family(const nh_model *o, const nh_family *f, bool *time
     double degree = 0, own;
     *timely |= depends_on_time(o, f->in_count, f->in) || depends_on_time(o, f->terms, f->term);
     switch (f->kind) {
-    case NH_TERMS:
-        return highest(o, f->terms, f->term);
-    case NH_POLYNOMIAL:
-        return highest(o, f->in_count, f->in) * (double)f->degree;
+    case NH_TERMS: return highest(o, f->terms, f->term);
+    case NH_POLYNOMIAL: return highest(o, f->in_count, f->in) * (double)f->degree;
     case NH_FAMILY_PRODUCT:
         for (size_t i = 0; i < f->parts; i++) degree += degree_of_family(o, &f->part[i], timely);
         return degree;
-    default:
-        own = highest(o, f->in_count, f->in);
-        return own > 0 ? no_degree : 0;
+    default: own = highest(o, f->in_count, f->in); return own > 0 ? no_degree : 0;
     }
 }
 

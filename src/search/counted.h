@@ -13,11 +13,11 @@
 /* What is known of degrees, for either kind of coefficients (count/completeness.h). */
 typedef struct {
     nh_analysis *r;
-    bool on;                    /* otherwise nothing is left out */
-    size_t covered[NH_COMPLETENESS_KINDS];   /* up to this degree nothing is new */
+    bool on;                               /* otherwise nothing is left out */
+    size_t covered[NH_COMPLETENESS_KINDS]; /* up to this degree nothing is new */
     /* at this degree something may be new, or 0; how many currents there were */
     size_t open[NH_COMPLETENESS_KINDS], open_at[NH_COMPLETENESS_KINDS];
-    size_t beyond[NH_COMPLETENESS_KINDS];    /* from this degree on nothing can be counted, or 0 */
+    size_t beyond[NH_COMPLETENESS_KINDS]; /* from this degree on nothing can be counted, or 0 */
 } nh_counted;
 
 /* Can nothing in these families be new?  `timely`: they will be multiplied by functions of t. */

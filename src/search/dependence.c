@@ -16,7 +16,7 @@ enum { most_currents = 6, point_factor = 3 };
 typedef struct {
     size_t count;
     nh_ex *name_of; /* monomials in the symbols Phi1, ... */
-    nh_ex *value;       /* the same in the currents */
+    nh_ex *value;   /* the same in the currents */
 } monomials;
 
 static void add(nh_dag *d, monomials *m, nh_ex pa, nh_ex pb, nh_ex va, nh_ex vb)
@@ -122,8 +122,7 @@ static const char *relate(nh_analysis *r, const nh_points *points, size_t n, con
 {
     monomials m = build(r, n, symbol, phi);
     bool *used = nh_alloc_array(m.count, sizeof *used);
-    const char *text =
-        numeric_relation(points, r->model, &m, used) ? exact_relation(r, &m, used, symbol[n - 1]) : NULL;
+    const char *text = numeric_relation(points, r->model, &m, used) ? exact_relation(r, &m, used, symbol[n - 1]) : NULL;
     nh_free(used);
     nh_free(m.name_of);
     nh_free(m.value);

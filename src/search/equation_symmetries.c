@@ -17,11 +17,11 @@ typedef struct {
     const nh_model *o;
     nh_dag *d;
     const nh_options *options;
-    nh_lu *lu;                 /* R^T R, of quasi-velocities */
+    nh_lu *lu; /* R^T R, of quasi-velocities */
     size_t words;
     nh_ex word[most_words];
     size_t columns, rows;
-    nh_ex *space;              /* columns x (1 + m): the fields of the ansatz */
+    nh_ex *space; /* columns x (1 + m): the fields of the ansatz */
     nh_equation_symmetries *out;
 } search;
 

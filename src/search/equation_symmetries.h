@@ -16,7 +16,7 @@
 #include "search/symmetry_space.h"
 
 typedef struct {
-    nh_ex time, *space;        /* S^0; m: S^s */
+    nh_ex time, *space; /* S^0; m: S^s */
     bool dynamical;
 } nh_equation_symmetry;
 
@@ -25,16 +25,16 @@ typedef enum { NH_ACTION_UNDECIDED, NH_ACTION_DEPENDENT, NH_ACTION_INDEPENDENT }
 /* S(Phi) for a current Phi: zero where it is not listed. */
 typedef struct {
     size_t symmetry, current;
-    nh_ex value;               /* S(Phi) */
-    nh_ex combination;         /* in terms of the names in the basis of the space of currents; 0: S(Phi) is not in it */
-    nh_action_answer answer;   /* where it is not: does it depend on the currents? */
+    nh_ex value;             /* S(Phi) */
+    nh_ex combination;       /* in terms of the names in the basis of the space of currents; 0: S(Phi) is not in it */
+    nh_action_answer answer; /* where it is not: does it depend on the currents? */
 } nh_symmetry_action;
 
 typedef struct {
-    const char *obstacle;      /* the reason why no symmetries were sought, or NULL */
+    const char *obstacle; /* the reason why no symmetries were sought, or NULL */
     size_t letters, degree, columns;
     nh_ex *letter;
-    bool sure;                 /* these are all symmetries in the ansatz: proved */
+    bool sure; /* these are all symmetries in the ansatz: proved */
     /* numbers of either kind; dynamical ones that are no combinations of point symmetries, and of those times
      * currents */
     size_t points, dynamical;

@@ -70,7 +70,7 @@ typedef struct {
     const nh_ex *fixed;      /* as in the result */
     size_t currents;         /* of the chart, that may be used */
     const nh_ex *current;
-    bool linear;   /* without roots and without integrals that have no closed form */
+    bool linear;                     /* without roots and without integrals that have no closed form */
     const nh_explicit_motion *rival; /* a motion that needs more such integrals is of no use; NULL: none */
     bool combined; /* with combined coordinates (search/combined_coordinates.h), NULL where there are none */
     const nh_options *options;

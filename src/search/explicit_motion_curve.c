@@ -209,8 +209,7 @@ static bool name_root(nh_explicit_curve *c, nh_ex Q, nh_ex state, bool constant,
     nh_relate(d, symbol, 2, base);
     nh_diff_rule(d, symbol, c->s, nh_div(d, nh_diff(d, base, c->s), nh_mul(d, nh_int(d, 2), symbol)));
     c->radicand[m->roots] = plain;
-    m->root[m->roots++] =
-        (nh_motion_root){symbol, base, nh_explicit_simple(c, nh_div(d, state, in_states(c, factor)))};
+    m->root[m->roots++] = (nh_motion_root){symbol, base, nh_explicit_simple(c, nh_div(d, state, in_states(c, factor)))};
     *out = nh_mul(d, factor, symbol);
     return true;
 }
@@ -303,12 +302,10 @@ static void consider(nh_explicit_curve *c, size_t j, int degree, size_t most_unk
     if (v->unknowns == 0 || v->unknowns > most_unknowns || nh_explicit_too_long(c, f->e)) return;
     for (size_t u = c->m->states; u-- > 0;) {
         if (c->solved[u] || !nh_depends(c->d, f->e, c->m->state[u])) continue;
-        double cost =
-            (double)v->unknowns + (u <= c->o->m) * position + (double)nh_complexity(c->d, f->e) * symbol;
+        double cost = (double)v->unknowns + (u <= c->o->m) * position + (double)nh_complexity(c->d, f->e) * symbol;
         if (cost >= best->cost) continue;
         if (!f->in[u].degree) f->in[u].degree = nh_explicit_degree(c, f->e, c->m->state[u], f->in[u].k) + 1;
-        if (f->in[u].degree == degree + 1)
-            *best = (choice){.current = j, .state = u, .cost = cost, .k = f->in[u].k};
+        if (f->in[u].degree == degree + 1) *best = (choice){.current = j, .state = u, .cost = cost, .k = f->in[u].k};
     }
 }
 

@@ -13,7 +13,7 @@ typedef struct nh_explicit_form {
     struct {
         int degree; /* one more than nh_explicit_degree; 0: not asked for */
         nh_ex k[3];
-    } *in;          /* per state */
+    } * in; /* per state */
 } nh_explicit_form;
 
 /* A current along the curve, until another state is solved. */

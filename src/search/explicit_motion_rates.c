@@ -197,8 +197,8 @@ static void read_equation(nh_explicit_curve *c, size_t u, nh_ex speed)
     if (nh_explicit_too_long(c, own) || depends_on_many(c, own, speed)) return;
     q->r = nh_explicit_split_roots(c, nh_explicit_simple(c, nh_div(c->d, own, speed)));
     size_t last = u, n = nh_explicit_unknowns(c, q->r, &last);
-    q->linear = n <= 1 && last == u && !nh_explicit_too_long(c, q->r) &&
-                nh_explicit_degree(c, q->r, c->m->state[u], k) <= 1;
+    q->linear =
+        n <= 1 && last == u && !nh_explicit_too_long(c, q->r) && nh_explicit_degree(c, q->r, c->m->state[u], k) <= 1;
     if (!q->linear) return;
     q->refused = before.refused && before.r == q->r;
     q->length = nh_complexity(c->d, q->r);

@@ -34,7 +34,7 @@
 
 enum {
     longest = 2000,  /* symbols of an equation of motion */
-    most_close = 24,  /* largest block in which rates that are equal are computed with so many bits, */
+    most_close = 24, /* largest block in which rates that are equal are computed with so many bits, */
     bits = 512,
     most_powers = 6,  /* of t, in one block of Jordan's */
     most_letters = 12 /* largest block in which rates without a name may still be roots (integrals/letters.h) */

@@ -16,8 +16,8 @@ typedef struct {
     size_t count, *of; /* the variables of the present block */
     size_t drives;     /* 1 and the functions of t that terms of b and of its derivatives are multiples of */
     nh_ex drive[NH_LINEAR_MOTION_DRIVES];
-    size_t forms;      /* invariant quadratic forms of the present block */
-    bool turns;        /* of the present rate: its imaginary part is meant */
+    size_t forms; /* invariant quadratic forms of the present block */
+    bool turns;   /* of the present rate: its imaginary part is meant */
 } nh_linear_motion_block;
 
 /* For z of this size, with nothing in it yet; nh_linear_motion_clear frees it. */

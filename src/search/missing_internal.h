@@ -38,13 +38,13 @@ typedef struct {
     nh_missing_barren barren[NH_MISSING_MOST_BARREN];
     size_t refusals;
     nh_missing_refused refused[NH_MISSING_MOST_REFUSED];
-    unsigned stale;         /* bit k: currents were found after kind k was counted */
-    size_t cyclic;          /* how often cyclic coordinates can be dropped */
-    double work;            /* work that is left for this count */
-    size_t solutions;       /* the most that series had for the coordinates at hand */
-    size_t recognised;      /* the most of which all were recognised */
-    double covered;         /* up to this price words were tried for these coordinates */
-    size_t aside;           /* currents that are only certified */
+    unsigned stale;    /* bit k: currents were found after kind k was counted */
+    size_t cyclic;     /* how often cyclic coordinates can be dropped */
+    double work;       /* work that is left for this count */
+    size_t solutions;  /* the most that series had for the coordinates at hand */
+    size_t recognised; /* the most of which all were recognised */
+    double covered;    /* up to this price words were tried for these coordinates */
+    size_t aside;      /* currents that are only certified */
     nh_current *set_aside;
 } nh_missing_search;
 

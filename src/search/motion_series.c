@@ -133,7 +133,7 @@ static bool next_link(trial *t, double edge, int side, nh_motion_series_link *ou
         if (found) *best = ideal(out->half, most);
         else
             out->half = rounded(out->half * (isfinite(most) ? fmax(shortest, fmin(shorter, ideal(1, most))) : shorter),
-                digits_of_lengths, 0);
+                                digits_of_lengths, 0);
     }
     return found;
 }

@@ -24,7 +24,7 @@ typedef struct {
 } nh_motion_series_link;
 
 typedef struct nh_motion_series {
-    double low, high; /* where the motion's parameter goes */
+    double low, high;               /* where the motion's parameter goes */
     size_t integrals, links, first; /* first: the link about the start */
     nh_motion_series_link *link;    /* in ascending order */
 } nh_motion_series;

@@ -84,8 +84,8 @@ nh_ex nh_name_value(const nh_model *o, double value, nh_follow *follow, void *co
     size_t n = nh_naming_atoms(o, atom);
     sets s = make_sets(o, n, atom, seed + 5);
     double *values = nh_alloc_array(s.count, sizeof *values);
-    bool named = follow_all(o, &s, value, follow, context, values)
-                 && nh_recognise_monomial(o->dag, s.count, n, atom, s.atom, values, 100 * tolerance, &found);
+    bool named = follow_all(o, &s, value, follow, context, values) &&
+                 nh_recognise_monomial(o->dag, s.count, n, atom, s.atom, values, 100 * tolerance, &found);
     if (!named && !nh_recognise_number(o->dag, value, tolerance, &found)) found = 0;
     nh_free(values);
     nh_free(s.parameter);

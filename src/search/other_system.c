@@ -25,7 +25,10 @@ nh_analysis *nh_other_system_open(const nh_analysis *first, nh_system *system, n
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_analysis *other = nh_arena_alloc(first->arena, sizeof *other);
-    *other = (nh_analysis){.arena = first->arena, .options = first->options, .system = system, .derived = true,
+    *other = (nh_analysis){.arena = first->arena,
+                           .options = first->options,
+                           .system = system,
+                           .derived = true,
                            .left_out = first->left_out};
     nh_chart *chart = nh_chart_create(system, choice, (uint64_t)first->options.seed, &ignored);
     other->model = nh_model_create(system, chart, &ignored);

@@ -23,7 +23,7 @@ typedef struct {
     nh_ex variable;
     size_t words;
     nh_ex word[most_words];
-    bool full; /* more series were found than there is room for */
+    bool full;            /* more series were found than there is room for */
     const char *equation; /* the equation of coefficients without a name, or NULL */
 } problem;
 
@@ -31,10 +31,8 @@ static void put(problem *p, nh_ex e)
 {
     for (size_t i = 0; i < p->words; i++)
         if (p->word[i] == e) return;
-    if (p->words == most_words)
-        p->full = true;
-    else
-        p->word[p->words++] = e;
+    if (p->words == most_words) p->full = true;
+    else p->word[p->words++] = e;
 }
 
 static void put_all(problem *p, size_t n, const nh_ex *e)
@@ -160,8 +158,7 @@ static void named(problem *p, const char *what)
     if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == r->system->t)) return;
     size_t n = nh_named_coefficients(r->model, p->variable, p->words, p->word, p->x->words.forms, p->x->words.form,
                                      r->arena, phi, &p->equation);
-    if (!n && !p->equation)
-        n = nh_named_squares(r->model, p->variable, p->words, p->word, r->arena, phi, &p->equation);
+    if (!n && !p->equation) n = nh_named_squares(r->model, p->variable, p->words, p->word, r->arena, phi, &p->equation);
     if (!n) return;
     *family = (nh_family){.kind = NH_TERMS, .terms = n, .term = phi};
     const char *name = nh_arena_printf(r->arena, "%s with coefficients that are named functions of %s", what,
@@ -200,10 +197,8 @@ static void search(problem *p, const char *what)
         nh_series_space longer;
         double end = p->variable == r->system->t ? end_of_time(p->x) : -INFINITY;
         if (reached && end > space.high && nh_series_extend(s, end, r->arena, &longer)) space = longer;
-        if (reached)
-            note->found = keep(p, &space);
-        else
-            note->undecided = true;
+        if (reached) note->found = keep(p, &space);
+        else note->undecided = true;
     }
     nh_series_close(s);
     note->seconds = nh_clock() - start;
@@ -276,8 +271,8 @@ void nh_stage_solver_series_of_positions(nh_stage_solver *x)
     put_all(&p, o->n, o->chart->w);
     for (size_t k = 0; k < r->count && currents < most_currents; k++) {
         nh_ex c = r->found[k].phi;
-        bool linear = r->found[k].proof.proved && !nh_depends(o->dag, c, o->system->t) &&
-                      nh_counted_degree_of(o, c) == 1;
+        bool linear =
+            r->found[k].proof.proved && !nh_depends(o->dag, c, o->system->t) && nh_counted_degree_of(o, c) == 1;
         for (size_t s = 0; s < o->m; s++) {
             nh_ex position = o->system->coordinate[s].q;
             linear = linear && (position == q || !nh_depends(o->dag, c, position));

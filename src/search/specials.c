@@ -94,7 +94,7 @@ bool nh_specials_find(nh_analysis *r, size_t *families, nh_family **family, nh_e
         for (size_t k = 0; k < r->specials; k++)
             if (r->hits->pencil_applied && !(r->special[k].hit->by_pencil && r->special[k].hit->by_search))
                 nh_analysis_warn(r, "the value %.12g of an unknown was found by the %s only", r->special[k].value[0],
-                               r->special[k].hit->by_pencil ? "eigenvalue pencil" : "global search");
+                                 r->special[k].hit->by_pencil ? "eigenvalue pencil" : "global search");
     }
     nh_points_free(points);
     return r->hits != NULL;

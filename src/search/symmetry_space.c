@@ -17,12 +17,12 @@ typedef struct {
     nh_dag *d;
     const nh_options *options;
     const nh_bracket_fields *fields;
-    size_t count, *degree;       /* of the currents; SIZE_MAX: above the highest, or no polynomial */
+    size_t count, *degree; /* of the currents; SIZE_MAX: above the highest, or no polynomial */
     const nh_named_current *current;
-    nh_ex *symbol;               /* their names */
+    nh_ex *symbol; /* their names */
     nh_symmetry_space *out;
-    bool autonomous;             /* nothing depends on t, and d/dt is in the canonical distribution */
-    size_t columns;              /* products that are linearly independent */
+    bool autonomous; /* nothing depends on t, and d/dt is in the canonical distribution */
+    size_t columns;  /* products that are linearly independent */
     nh_ex value[most_products], name[most_products];
 } space;
 
@@ -274,7 +274,7 @@ static void make_basis(const space *x, nh_symmetry_space *out)
 
 typedef struct {
     size_t n, width;
-    const nh_ex *field;        /* those beside Gamma */
+    const nh_ex *field;                            /* those beside Gamma */
     nh_ex phi[most_products], name[most_products]; /* independent currents that they annihilate */
     size_t count;
 } candidates;

@@ -14,8 +14,8 @@
 
 typedef struct {
     const char *name;
-    nh_ex phi;                 /* in the chart of the model */
-    bool energy;               /* a multiple of the energy */
+    nh_ex phi;   /* in the chart of the model */
+    bool energy; /* a multiple of the energy */
 } nh_named_current;
 
 /* Subspaces of the currents. */
@@ -23,9 +23,9 @@ typedef enum { NH_SPACE_BEST, NH_SPACE_CASE1, NH_SPACE_PROJECTABLE, NH_SPACE_INS
 
 /* A current of the basis, and the properties of its field. */
 typedef struct {
-    nh_ex combination, phi;    /* of the currents' names; of the currents */
+    nh_ex combination, phi; /* of the currents' names; of the currents */
     bool in[NH_SPACES];
-    const nh_field *field;     /* of a projectable one, simplified; else NULL */
+    const nh_field *field; /* of a projectable one, simplified; else NULL */
 } nh_space_member;
 
 /* A bound for the number of currents of a kind: those that certain fields annihilate. */
@@ -33,21 +33,21 @@ typedef struct {
     nh_closure closure;
     /* independent currents of this kind that were found: currents, combinations of the basis, products of powers */
     size_t count;
-    nh_ex *name;               /* in terms of the currents' names */
+    nh_ex *name; /* in terms of the currents' names */
 } nh_space_bound;
 
 typedef struct {
-    const char *obstacle;      /* the reason why the space was not found, or NULL */
+    const char *obstacle; /* the reason why the space was not found, or NULL */
     /* largest degree of a current in the velocities; currents of higher degree have no products */
     size_t degree;
     size_t others;
-    size_t left_out;           /* products beyond the largest number */
+    size_t left_out; /* products beyond the largest number */
     size_t dimension, of[NH_SPACES];
-    bool sure;                 /* these numbers are proved, for the products of the currents that were found */
-    nh_space_member *member;   /* dimension */
+    bool sure;               /* these numbers are proved, for the products of the currents that were found */
+    nh_space_member *member; /* dimension */
     nh_space_bound inside, case1;
     bool all_inside, all_case1; /* every current is of this kind: the conditions are identities */
-    size_t counted;            /* of all currents polynomial of this degree: an upper bound for their dimension, or 0 */
+    size_t counted; /* of all currents polynomial of this degree: an upper bound for their dimension, or 0 */
 } nh_symmetry_space;
 
 /* The currents are proved; in the arena.  `counted`: how many independent currents polynomial in the velocities, with

@@ -14,16 +14,16 @@ typedef struct nh_theory {
     const nh_model *model;
     const nh_submanifold *submanifold, *own; /* of it; and of the chart that the currents are in (perhaps the same) */
     const nh_determining *determining;
-    const nh_inertial *inertial;   /* NULL: the reaction cannot be split */
-    double shown, written;         /* options: longest formula in text and page; in the JSON */
+    const nh_inertial *inertial; /* NULL: the reaction cannot be split */
+    double shown, written;       /* options: longest formula in text and page; in the JSON */
     size_t brackets;
     struct nh_theory_bracket {
-        const char *name;          /* of the current */
+        const char *name; /* of the current */
         const nh_symmetry *symmetry;
         const nh_bracket *bracket;
-    } *bracket;
-    const nh_symmetry_space *space; /* of the currents that are proved; NULL: none was looked for */
-    const nh_bracket_fields *fields; /* of the submanifold that is shown */
+    } * bracket;
+    const nh_symmetry_space *space;           /* of the currents that are proved; NULL: none was looked for */
+    const nh_bracket_fields *fields;          /* of the submanifold that is shown */
     const nh_equation_symmetries *symmetries; /* of the equations of motion; NULL: none were looked for */
     size_t currents;
     const nh_named_current *current;

@@ -23,7 +23,7 @@ typedef struct {
     nh_stage_solver *x;
     const nh_model *o;
     nh_dag *d;
-    nh_ex M[3]; /* M_11, M_12, M_22 */
+    nh_ex M[3];                     /* M_11, M_12, M_22 */
     nh_ex w[2], a[2], s, rate_of_s; /* velocities, their rates; the coordinate */
 } problem;
 
@@ -123,8 +123,7 @@ static nh_ex at(const problem *p, nh_ex form, const nh_ex w[2])
 /* int f ds; false where f is no function of s alone, or has none. */
 static bool integral(const problem *p, bool general, nh_ex f, nh_ex *F)
 {
-    return of_s_alone(p, f) &&
-           nh_stage_solver_integral(p->x, p->s, general ? f : nh_model_values(p->o, f), true, F);
+    return of_s_alone(p, f) && nh_stage_solver_integral(p->x, p->s, general ? f : nh_model_values(p->o, f), true, F);
 }
 
 /* dx/dt = alpha ds/dt + beta n_j w^j:   x C - C int alpha ds - K int beta D ds */
@@ -149,8 +148,7 @@ static bool alone(const problem *p, nh_ex D, bool general)
     nh_ex g = nh_antiderivative_factor(d, F), l[] = {nh_diff(d, v, p->w[0]), nh_diff(d, v, p->w[1])};
     apart y = {.v = v, .D = D, .C = nh_mul(d, g, v), .e = {nh_neg(d, l[1]), l[0]}, .unit = {zero, zero}, .n = zero};
     for (size_t i = 0; i < 2; i++)
-        for (size_t j = 0; j < 2; j++)
-            y.n = nh_add(d, y.n, nh_product(d, 3, (nh_ex[]){y.e[i], p->M[i + j], p->w[j]}));
+        for (size_t j = 0; j < 2; j++) y.n = nh_add(d, y.n, nh_product(d, 3, (nh_ex[]){y.e[i], p->M[i + j], p->w[j]}));
     y.K = short_form(p, nh_div(d, nh_mul(d, g, y.n), D));
     size_t first = nh_is_zero(d, l[0]);
     y.unit[first] = nh_div(d, nh_int(d, 1), l[first]);

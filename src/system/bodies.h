@@ -26,24 +26,24 @@
  * that turns, endings of the names of its coordinates, its keys.  Screws along `axis` need nothing else; the axes of
  * others are in bodies_values.c. */
 enum { NH_JOINT_AXIS = 1, NH_JOINT_AXES = 2, NH_JOINT_PITCH = 4, NH_JOINT_ANGLES = 8 };
-#define NH_JOINT_TABLE(X)                                                                  \
-    X(FIXED, "fixed", 0, 0, "", 0)                                                         \
-    X(REVOLUTE, "revolute", 1, 1, "", NH_JOINT_AXIS)                                       \
-    X(PRISMATIC, "prismatic", 1, 0, "", NH_JOINT_AXIS)                                     \
-    X(HELICAL, "helical", 1, 1, "", NH_JOINT_AXIS | NH_JOINT_PITCH)                        \
-    X(CYLINDRICAL, "cylindrical", 2, 2, "sa", NH_JOINT_AXIS)                               \
-    X(PLANAR, "planar", 3, 4, "xya", NH_JOINT_AXIS)                                        \
-    X(SPHERICAL, "spherical", 3, 7, "abc", NH_JOINT_ANGLES)                                \
-    X(FREE, "free", 6, 070, "xyzabc", NH_JOINT_ANGLES)                                     \
-    X(TRANSLATION, "translation", 0, 0, "xyz", NH_JOINT_AXES)                              \
-    X(SCHOENFLIES, "schoenflies", 4, 010, "xyza", NH_JOINT_AXIS)                           \
+#define NH_JOINT_TABLE(X)                                                                                              \
+    X(FIXED, "fixed", 0, 0, "", 0)                                                                                     \
+    X(REVOLUTE, "revolute", 1, 1, "", NH_JOINT_AXIS)                                                                   \
+    X(PRISMATIC, "prismatic", 1, 0, "", NH_JOINT_AXIS)                                                                 \
+    X(HELICAL, "helical", 1, 1, "", NH_JOINT_AXIS | NH_JOINT_PITCH)                                                    \
+    X(CYLINDRICAL, "cylindrical", 2, 2, "sa", NH_JOINT_AXIS)                                                           \
+    X(PLANAR, "planar", 3, 4, "xya", NH_JOINT_AXIS)                                                                    \
+    X(SPHERICAL, "spherical", 3, 7, "abc", NH_JOINT_ANGLES)                                                            \
+    X(FREE, "free", 6, 070, "xyzabc", NH_JOINT_ANGLES)                                                                 \
+    X(TRANSLATION, "translation", 0, 0, "xyz", NH_JOINT_AXES)                                                          \
+    X(SCHOENFLIES, "schoenflies", 4, 010, "xyza", NH_JOINT_AXIS)                                                       \
     X(TRANSLATING_SCREW, "translating-screw", 3, 4, "xya", NH_JOINT_AXIS | NH_JOINT_PITCH)
 
 typedef enum {
 #define X(kind, word, screws, turns, letters, keys) NH_JOINT_##kind,
     NH_JOINT_TABLE(X)
 #undef X
-    NH_JOINT_KINDS
+        NH_JOINT_KINDS
 } nh_joint_kind;
 
 enum { NH_GROUND = -1, NH_MOST_SCREWS = 6 };
@@ -51,26 +51,26 @@ enum { NH_GROUND = -1, NH_MOST_SCREWS = 6 };
 /* One degree of freedom of a joint, in the frame right after it (or right before it: a screw does not move its own
  * axis). */
 typedef struct {
-    bool turns;       /* a turn about the axis (with a pitch: a helical motion), else a translation along it */
-    nh_ex axis[3];    /* unit vector */
-    nh_ex pitch;      /* translation per radian */
+    bool turns;    /* a turn about the axis (with a pitch: a helical motion), else a translation along it */
+    nh_ex axis[3]; /* unit vector */
+    nh_ex pitch;   /* translation per radian */
     /* displacement, and its derivative with respect to t: a coordinate and its velocity, or expressions in them */
     nh_ex s, rate;
-    long coordinate;  /* index of the coordinate that s is; -1: s is an expression, or the turn an orientation's */
+    long coordinate; /* index of the coordinate that s is; -1: s is an expression, or the turn an orientation's */
     /* of an orientation (system/orientation.h): three screws about the body's axes, the first of which makes the whole
      * turn */
     bool oriented;
     const nh_ex *matrix; /* NULL: it is the turn by s */
     nh_ex framed;        /* its rate; of an orientation in the symbols of angular velocities */
-    double low, high; /* its sampling interval, away from a pole of Euler's angles; both 0: the default */
+    double low, high;    /* its sampling interval, away from a pole of Euler's angles; both 0: the default */
 } nh_screw;
 
 typedef struct {
     const char *name, *doc;
     nh_joint_kind kind;
-    long parent;      /* index of a body, or NH_GROUND */
+    long parent; /* index of a body, or NH_GROUND */
     size_t child;
-    nh_pose placement; /* of the joint's frame in the parent's frame */
+    nh_pose placement;    /* of the joint's frame in the parent's frame */
     size_t screws, first; /* chain->screw[first .. first + screws - 1] */
     long orientation;     /* of its three turns (an index), or -1 */
     const nh_deck_node *node;
@@ -78,10 +78,10 @@ typedef struct {
 
 typedef struct {
     const char *name, *doc;
-    size_t joint;     /* index of the joint that carries it */
+    size_t joint;                      /* index of the joint that carries it */
     nh_ex mass, center[3], inertia[9]; /* in the body's frame; the inertia about the centre of mass */
-    nh_pose pose;     /* of the body's frame in the ground's */
-    nh_ex position[3]; /* of the centre of mass */
+    nh_pose pose;                      /* of the body's frame in the ground's */
+    nh_ex position[3];                 /* of the centre of mass */
     const nh_deck_node *node;
 } nh_body;
 
@@ -91,12 +91,12 @@ typedef struct {
     const char *name;
     nh_wheel_kind kind;
     size_t body;
-    long on;          /* the body whose surface it touches, or NH_GROUND */
-    nh_ex at[3];      /* a point of the blade, or the centre of the wheel, in the body's frame */
-    bool ball;        /* a ball that rolls without an axle */
-    nh_ex axis[3];    /* unit vector: across the blade, or the axle; in the body's frame */
+    long on;       /* the body whose surface it touches, or NH_GROUND */
+    nh_ex at[3];   /* a point of the blade, or the centre of the wheel, in the body's frame */
+    bool ball;     /* a ball that rolls without an axle */
+    nh_ex axis[3]; /* unit vector: across the blade, or the axle; in the body's frame */
     nh_ex radius;
-    int normal;       /* of the surface: axis number in the frame of `on` */
+    int normal; /* of the surface: axis number in the frame of `on` */
     const nh_deck_node *node;
 } nh_wheel;
 
@@ -106,13 +106,13 @@ typedef struct {
     nh_joint *joint;
     nh_screw *screw;
     nh_wheel *wheel;
-    size_t *order;    /* joints, from the root to the leaves */
+    size_t *order; /* joints, from the root to the leaves */
     nh_ex gravity[3];
-    nh_ex *metric;    /* screws x screws: S_kl */
+    nh_ex *metric; /* screws x screws: S_kl */
     nh_ex kinetic, potential;
-    nh_ex framed;     /* the kinetic energy in the symbols of angular velocities */
+    nh_ex framed; /* the kinetic energy in the symbols of angular velocities */
     size_t m;
-    nh_ex *K;         /* m x m: the metric in the coordinates' velocities, as far as the rates depend on these */
+    nh_ex *K; /* m x m: the metric in the coordinates' velocities, as far as the rates depend on these */
 } nh_chain;
 
 typedef struct {

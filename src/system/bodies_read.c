@@ -262,10 +262,7 @@ static const char *default_name(reader *r, const nh_joint *j, size_t k)
     return nh_arena_printf(r->system->arena, "%s_%c", j->name, kinds[j->kind].letters[k]);
 }
 
-bool nh_joint_turns(const nh_joint *j, size_t k)
-{
-    return kinds[j->kind].turns >> k & 1;
-}
+bool nh_joint_turns(const nh_joint *j, size_t k) { return kinds[j->kind].turns >> k & 1; }
 
 static bool coordinate_of(reader *r, const nh_joint *j, size_t k, const nh_deck_node *name)
 {

@@ -210,7 +210,7 @@ static bool axes_of_joint(reader *r, const nh_joint *j, nh_screw *s)
         for (int k = 0; k < 3; k++) unit_vector(d, k, s[k].axis);
         return direction_of(r, j->node, "axis", "an axis", 2, s[3].axis);
     case NH_JOINT_TRANSLATING_SCREW: /* as a planar joint, whose turn advances along the normal */
-    case NH_JOINT_PLANAR: { /* normal z: along x, along y, about z; and so on in turn */
+    case NH_JOINT_PLANAR: {          /* normal z: along x, along y, about z; and so on in turn */
         long normal = given ? nh_system_word(r, given, "the normal of a plane", 3, axis_names) : 2;
         if (normal < 0 && !r->error->hint[0])
             nh_error_hint(r->error, "any other plane is reached by a `rotation` of the joint");
@@ -344,8 +344,9 @@ static void name_wheels(reader *r)
         for (size_t i = 0; i < c->wheels; i++) {
             nh_wheel *w = &c->wheel[i];
             if (w->body != body || w->name) continue;
-            const char *of = c->body[body].name,
-                       *kind = w->ball ? "ball" : w->kind == NH_WHEEL_ROLLING ? "wheel" : "blade";
+            const char *of = c->body[body].name, *kind = w->ball                       ? "ball"
+                                                         : w->kind == NH_WHEEL_ROLLING ? "wheel"
+                                                                                       : "blade";
             w->name = all == 1 ? nh_arena_printf(r->system->arena, "%s of %s", kind, of)
                                : nh_arena_printf(r->system->arena, "%s %zu of %s", kind, ++number, of);
         }

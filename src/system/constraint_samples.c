@@ -313,8 +313,9 @@ bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t s
     bool exact = generic_rank_of(c, &rank, &redundant);
     if (!exact) rank = rank_by_numbers(c, &redundant);
     if (rank < c->k && exact && contradicts(c, redundant)) {
-        nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
-                     "this constraint contradicts those before it: at almost all positions they have no common solution");
+        nh_deck_fail(
+            s->deck, s->constraint[redundant].node, 0, error,
+            "this constraint contradicts those before it: at almost all positions they have no common solution");
         return nh_error_hint(error, "correct one of them");
     }
     if (rank < c->k) {

@@ -12,15 +12,15 @@ typedef struct {
     nh_tape *tape;      /* f (k) and F = df/dv (k x m, row-major) as functions of (t, q, v) */
     nh_tape_work *work;
     double *out;
-    double *point;      /* count x width */
-    double *F;          /* count x (k m), column-major k x m */
-    double *unit;       /* m: nh_chart_unit of each coordinate */
-    double *speed;      /* m: half the width of the velocity's */
-    double *size;       /* k: the largest |df/dv| speed at points that need not satisfy the constraints */
+    double *point; /* count x width */
+    double *F;     /* count x (k m), column-major k x m */
+    double *unit;  /* m: nh_chart_unit of each coordinate */
+    double *speed; /* m: half the width of the velocity's */
+    double *size;  /* k: the largest |df/dv| speed at points that need not satisfy the constraints */
     size_t count;
     uint64_t seed;
-    bool entire;        /* the constraints have no singular points */
-    bool written;       /* with the parameters at the values of the file */
+    bool entire;  /* the constraints have no singular points */
+    bool written; /* with the parameters at the values of the file */
 } nh_constraint_samples;
 
 /* Points for the first `constraints` of the system. */

@@ -14,23 +14,15 @@
 #include "base/text.h"
 #include "evaluate/constant_text.h"
 
-const nh_deck_node *nh_deck_root(const nh_deck *deck)
-{
-    return deck->root;
-}
+const nh_deck_node *nh_deck_root(const nh_deck *deck) { return deck->root; }
 
-const char *nh_deck_name(const nh_deck *deck)
-{
-    return deck->name;
-}
+const char *nh_deck_name(const nh_deck *deck) { return deck->name; }
 
 const nh_deck_node *nh_deck_get(const nh_deck_node *map, const char *key)
 {
-    if (!map || map->kind != NH_DECK_MAP)
-        return NULL;
+    if (!map || map->kind != NH_DECK_MAP) return NULL;
     for (size_t i = 0; i < map->count; i++)
-        if (strcmp(map->key[i]->text, key) == 0)
-            return map->item[i];
+        if (strcmp(map->key[i]->text, key) == 0) return map->item[i];
     return NULL;
 }
 
@@ -42,10 +34,8 @@ bool nh_deck_fail(const nh_deck *deck, const nh_deck_node *node, size_t offset, 
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    if (!node)
-        return nh_fail(error, NH_INPUT, deck->name, "%s", what);
-    if (node->deck)
-        deck = node->deck;
+    if (!node) return nh_fail(error, NH_INPUT, deck->name, "%s", what);
+    if (node->deck) deck = node->deck;
     return nh_deck_fail_at(deck, nh_deck_origin(deck, node, offset), error, "%s", what);
 }
 
@@ -53,8 +43,7 @@ bool nh_deck_fail(const nh_deck *deck, const nh_deck_node *node, size_t offset, 
 static const char *quote_for(const char *what)
 {
     for (const char *c = what; *c; c++)
-        if (*c == '`' || *c == ' ')
-            return "";
+        if (*c == '`' || *c == ' ') return "";
     return "`";
 }
 
@@ -80,8 +69,7 @@ __attribute__((format(printf, 5, 6))) static bool wrong(const nh_deck *deck, con
 {
     char found[FOUND_SIZE], expected[256];
     const char *quote = quote_for(what);
-    if (!node)
-        return nh_deck_fail(deck, NULL, 0, error, "%s%s%s is missing", quote, what, quote);
+    if (!node) return nh_deck_fail(deck, NULL, 0, error, "%s%s%s is missing", quote, what, quote);
     va_list arguments;
     va_start(arguments, wanted);
     vsnprintf(expected, sizeof expected, wanted, arguments);
@@ -134,25 +122,20 @@ static void hint_colon(const nh_deck_node *node, nh_error *error)
 bool nh_deck_is(const nh_deck *deck, const nh_deck_node *node, nh_deck_kind kind, const char *what, nh_error *error)
 {
     static const char *const wanted[] = {"a single value", "a list", "a map (`key: value`)"};
-    if (node && node->kind == kind)
-        return true;
+    if (node && node->kind == kind) return true;
     bool fresh = error && error->code == NH_OK;
     wrong(deck, node, what, error, "%s", wanted[kind]);
     if (fresh && node && kind == NH_DECK_MAP && lacks_space(node))
         nh_error_hint(error, "write a space after the colon");
-    if (fresh && node && kind == NH_DECK_MAP)
-        hint_colon(node, error);
-    if (fresh && node && kind == NH_DECK_LIST)
-        hint_list(node, what, error);
-    if (fresh && node && kind == NH_DECK_SCALAR)
-        hint_equation(node, what, error);
+    if (fresh && node && kind == NH_DECK_MAP) hint_colon(node, error);
+    if (fresh && node && kind == NH_DECK_LIST) hint_list(node, what, error);
+    if (fresh && node && kind == NH_DECK_SCALAR) hint_equation(node, what, error);
     return false;
 }
 
 static void list_known(const char *const *known, size_t count, nh_text *out)
 {
-    for (size_t i = 0; i < count; i++)
-        nh_text_addf(out, "%s%s", i > 0 ? ", " : "known keys: ", known[i]);
+    for (size_t i = 0; i < count; i++) nh_text_addf(out, "%s%s", i > 0 ? ", " : "known keys: ", known[i]);
 }
 
 /* The key that is called `word` elsewhere, if it is known here and not yet written; NULL: none. */
@@ -208,8 +191,10 @@ static bool hint_block(const nh_deck *deck, const nh_deck_node *value, const cha
     bool number = nh_text_is_number(text), top = false;
     for (size_t j = 0; j < count; j++) top |= !strcmp(known[j], number ? "parameters" : "definitions");
     if (!top || deck->hidden || (!number && !strpbrk(text, "+-*/^(")) || strlen(text) > 80) return false;
-    nh_error_hint(error, number ? "write `- {name: %s, value: %s}` under `parameters:`"
-                                : "write `- %s = %s` under `definitions:`", word, text);
+    nh_error_hint(error,
+                  number ? "write `- {name: %s, value: %s}` under `parameters:`"
+                         : "write `- %s = %s` under `definitions:`",
+                  word, text);
     return true;
 }
 
@@ -227,8 +212,7 @@ static void hint_known(const nh_deck *deck, const nh_deck_node *map, size_t i, c
     nh_text list;
     nh_text_init(&list);
     bool split = deck->source[map->begin] == '{' && word[strspn(word, letters)]; /* an expression, at its comma? */
-    if (split)
-        nh_text_add(&list, "if it belongs to an expression, put the expression in double quotes; ");
+    if (split) nh_text_add(&list, "if it belongs to an expression, put the expression in double quotes; ");
     list_known(known, count, &list);
     nh_error_hint(error, "%s", nh_text_string(&list));
     nh_text_clear(&list);
@@ -236,29 +220,22 @@ static void hint_known(const nh_deck *deck, const nh_deck_node *map, size_t i, c
 
 bool nh_deck_only(const nh_deck *deck, const nh_deck_node *map, const char *const *known, size_t count, nh_error *error)
 {
-    if (!nh_deck_is(deck, map, NH_DECK_MAP, "this entry", error))
-        return false;
+    if (!nh_deck_is(deck, map, NH_DECK_MAP, "this entry", error)) return false;
     for (size_t i = 0; i < map->count; i++) {
         size_t j = 0;
-        while (j < count && strcmp(map->key[i]->text, known[j]) != 0)
-            j++;
-        if (j < count)
-            continue;
+        while (j < count && strcmp(map->key[i]->text, known[j]) != 0) j++;
+        if (j < count) continue;
         char shown[NH_DECK_SHOWN];
         nh_deck_shorten(map->key[i]->text, shown);
         bool fresh = error && error->code == NH_OK;
         nh_deck_fail(deck, map->key[i], 0, error, "unknown key `%s`", shown);
-        if (fresh)
-            hint_known(deck, map, i, known, count, error);
+        if (fresh) hint_known(deck, map, i, known, count, error);
         return false;
     }
     return true;
 }
 
-static bool is_plain(const nh_deck_node *node)
-{
-    return node && node->kind == NH_DECK_SCALAR && node->plain;
-}
+static bool is_plain(const nh_deck_node *node) { return node && node->kind == NH_DECK_SCALAR && node->plain; }
 
 /* After a message about a quoted number. */
 static void hint_unquote(const nh_deck_node *node, bool fresh, nh_error *error)
@@ -288,11 +265,9 @@ static bool to_whole(const char *text, long *out)
     char *rest;
     errno = 0;
     *out = strtol(text, &rest, 10);
-    if (*rest == '\0')
-        return errno == 0;
+    if (*rest == '\0') return errno == 0;
     double value = strtod(text, NULL);
-    if (!(fabs(value) <= exact) || value != floor(value))
-        return false;
+    if (!(fabs(value) <= exact) || value != floor(value)) return false;
     *out = (long)value;
     return true;
 }
@@ -307,14 +282,10 @@ bool nh_deck_whole(const nh_deck *deck, const nh_deck_node *node, const char *wh
         return true;
     }
     bool fresh = error && error->code == NH_OK;
-    if (min == LONG_MIN && max == LONG_MAX)
-        wrong(deck, node, what, error, "a whole number");
-    else if (max == LONG_MAX)
-        wrong(deck, node, what, error, "a whole number, at least %ld", min);
-    else if (min == LONG_MIN)
-        wrong(deck, node, what, error, "a whole number, at most %ld", max);
-    else
-        wrong(deck, node, what, error, "a whole number from %ld to %ld", min, max);
+    if (min == LONG_MIN && max == LONG_MAX) wrong(deck, node, what, error, "a whole number");
+    else if (max == LONG_MAX) wrong(deck, node, what, error, "a whole number, at least %ld", min);
+    else if (min == LONG_MIN) wrong(deck, node, what, error, "a whole number, at most %ld", max);
+    else wrong(deck, node, what, error, "a whole number from %ld to %ld", min, max);
     hint_unquote(node, fresh, error);
     return false;
 }
@@ -324,16 +295,14 @@ bool nh_deck_range(const nh_deck *deck, const nh_deck_node *node, const char *wh
     static const char *const end_name[] = {"lower", "upper"};
     const char *quote = quote_for(what);
     double value[2];
-    if (!node || node->kind != NH_DECK_LIST)
-        return wrong(deck, node, what, error, "a range [low, high]");
+    if (!node || node->kind != NH_DECK_LIST) return wrong(deck, node, what, error, "a range [low, high]");
     if (node->count != 2)
         return nh_deck_fail(deck, node, 0, error, "%s%s%s must be a range [low, high], found a list of %zu", quote,
                             what, quote, node->count);
     for (size_t i = 0; i < 2; i++) {
         char name[128];
         snprintf(name, sizeof name, "the %s end of %s%.80s%s", end_name[i], quote, what, quote);
-        if (!nh_deck_number(deck, node->item[i], name, &value[i], error))
-            return false;
+        if (!nh_deck_number(deck, node->item[i], name, &value[i], error)) return false;
     }
     if (!(value[0] < value[1]))
         return nh_deck_fail(deck, node->item[1], 0, error,

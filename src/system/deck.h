@@ -17,13 +17,13 @@ typedef enum { NH_DECK_SCALAR, NH_DECK_LIST, NH_DECK_MAP } nh_deck_kind;
 typedef struct nh_deck_node nh_deck_node;
 struct nh_deck_node {
     nh_deck_kind kind;
-    const char *text;         /* of a scalar */
-    bool plain;               /* a scalar without quotes, so that null, true and 12 are not texts */
-    size_t count;             /* items of a list, entries of a map */
-    const nh_deck_node **item; /* items, or values of a map */
-    const nh_deck_node **key;  /* keys of a map (scalars, distinct) */
-    size_t begin, end;        /* byte range in the source */
-    size_t line, column;      /* of the first character, from 1; a column counts code points */
+    const char *text;           /* of a scalar */
+    bool plain;                 /* a scalar without quotes, so that null, true and 12 are not texts */
+    size_t count;               /* items of a list, entries of a map */
+    const nh_deck_node **item;  /* items, or values of a map */
+    const nh_deck_node **key;   /* keys of a map (scalars, distinct) */
+    size_t begin, end;          /* byte range in the source */
+    size_t line, column;        /* of the first character, from 1; a column counts code points */
     const struct nh_deck *deck; /* the deck that it belongs to: a file may include another one */
 };
 

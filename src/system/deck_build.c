@@ -146,8 +146,8 @@ static bool add_entry(nh_deck *deck, nh_deck_node *map, size_t begin, size_t end
     const nh_deck_node *last = map->count ? map->item[map->count - 1] : NULL;
     double number;
     if (!value && last && nh_text_to_number(name->text, &number) && nh_text_to_number(last->text, &number)) /* x=0,5 */
-        return nh_error_hint(error, "use a decimal point: %s=%s.%s", map->key[map->count - 1]->text,
-                             last->text, name->text);
+        return nh_error_hint(error, "use a decimal point: %s=%s.%s", map->key[map->count - 1]->text, last->text,
+                             name->text);
     if (error->code != NH_OK) return nh_error_hint(error, cure);
     if (nh_deck_get(map, name->text)) return nh_deck_fail(deck, name, 0, error, "`%s` is given twice", name->text);
     nh_deck_put(deck, map, name->text, value);

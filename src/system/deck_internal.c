@@ -8,21 +8,12 @@
 
 #include "base/escape.h"
 
-bool nh_deck_is_break(char c)
-{
-    return c == '\n' || c == '\r';
-}
+bool nh_deck_is_break(char c) { return c == '\n' || c == '\r'; }
 
-bool nh_deck_is_space(char c)
-{
-    return c == ' ' || c == '\t' || nh_deck_is_break(c);
-}
+bool nh_deck_is_space(char c) { return c == ' ' || c == '\t' || nh_deck_is_break(c); }
 
 /* Every UTF-8 character has exactly one byte that is not of the form 10xxxxxx. */
-static bool leads(char c)
-{
-    return ((unsigned char)c & 0xC0) != 0x80;
-}
+static bool leads(char c) { return ((unsigned char)c & 0xC0) != 0x80; }
 
 static void add_line(nh_deck *deck, size_t byte)
 {
@@ -38,13 +29,10 @@ static void index_source(nh_deck *deck)
     deck->before = nh_alloc_array(deck->length / NH_DECK_BLOCK + 1, sizeof *deck->before);
     add_line(deck, 0);
     for (size_t i = 0; i <= deck->length; i++) {
-        if (i % NH_DECK_BLOCK == 0)
-            deck->before[i / NH_DECK_BLOCK] = code_points;
-        if (i == deck->length)
-            break;
+        if (i % NH_DECK_BLOCK == 0) deck->before[i / NH_DECK_BLOCK] = code_points;
+        if (i == deck->length) break;
         code_points += leads(s[i]);
-        if (s[i] == '\n' || (s[i] == '\r' && s[i + 1] != '\n'))
-            add_line(deck, i + 1);
+        if (s[i] == '\n' || (s[i] == '\r' && s[i + 1] != '\n')) add_line(deck, i + 1);
     }
 }
 
@@ -57,16 +45,14 @@ nh_deck *nh_deck_create(const char *name, const char *text, size_t length)
     deck->name = nh_arena_strdup(deck->arena, name);
     deck->length = length - skip;
     deck->source = nh_arena_alloc(deck->arena, deck->length + 1);
-    if (deck->length)
-        memcpy(deck->source, text + skip, deck->length);
+    if (deck->length) memcpy(deck->source, text + skip, deck->length);
     index_source(deck);
     return deck;
 }
 
 void nh_deck_free(nh_deck *deck)
 {
-    if (!deck)
-        return;
+    if (!deck) return;
     nh_deck_free(deck->included);
     nh_free(deck->before);
     nh_free(deck->line);
@@ -78,8 +64,7 @@ void nh_deck_free(nh_deck *deck)
 static size_t code_point_of(const nh_deck *deck, size_t byte)
 {
     size_t block = byte / NH_DECK_BLOCK, count = deck->before[block];
-    for (size_t i = block * NH_DECK_BLOCK; i < byte; i++)
-        count += leads(deck->source[i]);
+    for (size_t i = block * NH_DECK_BLOCK; i < byte; i++) count += leads(deck->source[i]);
     return count;
 }
 
@@ -88,15 +73,12 @@ size_t nh_deck_byte_of(const nh_deck *deck, size_t code_point)
     size_t low = 0, high = deck->length / NH_DECK_BLOCK + 1;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
-        if (deck->before[middle] <= code_point)
-            low = middle;
-        else
-            high = middle;
+        if (deck->before[middle] <= code_point) low = middle;
+        else high = middle;
     }
     size_t byte = low * NH_DECK_BLOCK, count = deck->before[low];
     for (; byte < deck->length; byte++)
-        if (leads(deck->source[byte]) && count++ == code_point)
-            break;
+        if (leads(deck->source[byte]) && count++ == code_point) break;
     return byte;
 }
 
@@ -105,10 +87,8 @@ void nh_deck_place(const nh_deck *deck, size_t byte, size_t *line, size_t *colum
     size_t low = 0, high = deck->lines;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
-        if (deck->line[middle] <= byte)
-            low = middle;
-        else
-            high = middle;
+        if (deck->line[middle] <= byte) low = middle;
+        else high = middle;
     }
     *line = low + 1;
     *column = code_point_of(deck, byte) - code_point_of(deck, deck->line[low]) + 1;
@@ -120,19 +100,16 @@ static void excerpt(const nh_deck *deck, size_t line, size_t caret, char *out, s
     enum { WINDOW = 100 };
     static const char dots[] = "…";
     size_t begin = deck->line[line - 1], end = begin, width = 0, column = 0;
-    while (end < deck->length && !nh_deck_is_break(deck->source[end]))
-        width += leads(deck->source[end++]);
+    while (end < deck->length && !nh_deck_is_break(deck->source[end])) width += leads(deck->source[end++]);
     size_t from = width <= WINDOW || caret < WINDOW / 2 ? 0 : caret - WINDOW / 2;
-    if (width > WINDOW && from + WINDOW > width)
-        from = width - WINDOW;
+    if (width > WINDOW && from + WINDOW > width) from = width - WINDOW;
     size_t to = from + WINDOW;
     nh_text text;
     nh_text_init(&text);
     nh_text_add(&text, from > 0 ? "  …" : "  ");
     for (size_t i = begin; i < end; i++) {
         column += leads(deck->source[i]); /* of this character, from 1 */
-        if (column > from && column <= to)
-            nh_text_add_n(&text, deck->source[i] == '\t' ? " " : deck->source + i, 1);
+        if (column > from && column <= to) nh_text_add_n(&text, deck->source[i] == '\t' ? " " : deck->source + i, 1);
     }
     nh_text_addf(&text, "%s\n  %*s^", width > to ? dots : "", (int)(caret - from + (from > 0)), "");
     snprintf(out, size, "%s", nh_text_string(&text));
@@ -148,18 +125,15 @@ bool nh_deck_fail_hidden(const char *name, nh_error *error)
 
 bool nh_deck_fail_at(const nh_deck *deck, size_t byte, nh_error *error, const char *format, ...)
 {
-    if (!error || error->code != NH_OK)
-        return false;
-    if (deck->hidden)
-        return nh_deck_fail_hidden(deck->name, error);
+    if (!error || error->code != NH_OK) return false;
+    if (deck->hidden) return nh_deck_fail_hidden(deck->name, error);
     char what[2 * sizeof error->what], where[2 * sizeof error->where];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
     size_t line, column;
-    while (byte > 0 && byte < deck->length && !leads(deck->source[byte]))
-        byte--;
+    while (byte > 0 && byte < deck->length && !leads(deck->source[byte])) byte--;
     nh_deck_place(deck, byte, &line, &column);
     size_t room = sizeof where / 2, skip = strlen(deck->name) > room ? strlen(deck->name) - room : 0;
     if (deck->code == NH_OK) snprintf(where, sizeof where, "%s:%zu:%zu", deck->name + skip, line, column);
@@ -224,8 +198,7 @@ bool nh_deck_check_text(nh_deck *deck, nh_error *error)
     for (size_t i = 0, length; i < deck->length; i += length ? length : 1) {
         uint32_t code = 0;
         length = nh_utf8_decode(deck->source + i, deck->length - i, &code);
-        if (length && !nh_is_invisible(code))
-            continue;
+        if (length && !nh_is_invisible(code)) continue;
         if (first == SIZE_MAX) {
             first = i;
             first_length = length;
@@ -234,8 +207,7 @@ bool nh_deck_check_text(nh_deck *deck, nh_error *error)
         }
         memset(deck->source + i, '?', length ? length : 1);
     }
-    if (first == SIZE_MAX)
-        return true;
+    if (first == SIZE_MAX) return true;
     nh_free(deck->before);
     deck->lines = 0;
     index_source(deck); /* the replaced bytes count as characters of their own */

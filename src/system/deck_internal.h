@@ -11,11 +11,11 @@ struct nh_deck {
     size_t length;
     const nh_deck_node *root;
     struct nh_deck *included; /* owned */
-    size_t *before; /* before[i]: code points before byte i * NH_DECK_BLOCK */
-    size_t *line;   /* byte at which a line begins */
+    size_t *before;           /* before[i]: code points before byte i * NH_DECK_BLOCK */
+    size_t *line;             /* byte at which a line begins */
     size_t lines, line_capacity;
-    bool hidden;    /* its text is in no message */
-    nh_code code;   /* code of its errors; NH_OK: that of a file, with line and column */
+    bool hidden;  /* its text is in no message */
+    nh_code code; /* code of its errors; NH_OK: that of a file, with line and column */
 };
 
 enum { NH_DECK_BLOCK = 64, NH_DECK_SHOWN = 192 };

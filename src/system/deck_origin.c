@@ -41,17 +41,13 @@ static size_t skip_space(const walk *w, size_t at, size_t *breaks)
     return at;
 }
 
-static size_t utf8_length(unsigned long code)
-{
-    return code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
-}
+static size_t utf8_length(unsigned long code) { return code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4; }
 
 /* A numeric escape \xHH, \uHHHH, \UHHHHHHHH: `digits` hexadecimal digits after two characters. */
 static void step_code(walk *w, size_t digits)
 {
     char number[9] = "";
-    if (w->at + 2 + digits > w->end)
-        digits = w->end - w->at - 2;
+    if (w->at + 2 + digits > w->end) digits = w->end - w->at - 2;
     memcpy(number, w->source + w->at + 2, digits);
     w->done += utf8_length(strtoul(number, NULL, 16));
     w->at += 2 + digits;
@@ -68,9 +64,12 @@ static void step_escape(walk *w)
     case 'x': step_code(w, 2); return;
     case 'u': step_code(w, 4); return;
     case 'U': step_code(w, 8); return;
-    case 'N': case '_': w->done += 2; break; /* U+0085, U+00A0 */
-    case 'L': case 'P': w->done += 3; break; /* U+2028, U+2029 */
-    case '\n': case '\r':
+    case 'N':
+    case '_': w->done += 2; break; /* U+0085, U+00A0 */
+    case 'L':
+    case 'P': w->done += 3; break; /* U+2028, U+2029 */
+    case '\n':
+    case '\r':
         w->at = skip_space(w, w->at + 1, &breaks);
         w->done += breaks - 1; /* the first break is swallowed, empty lines after it are not */
         return;
@@ -107,8 +106,7 @@ static size_t find_flow(walk *w, char quote, size_t offset)
     size_t breaks = 0; /* an escaped line break produces nothing: go on to what follows it */
     while (quote == '"' && w->at + 1 < w->end && w->source[w->at] == '\\' && nh_deck_is_break(w->source[w->at + 1])) {
         size_t next = skip_space(w, w->at + 1, &breaks);
-        if (breaks > 1)
-            break;
+        if (breaks > 1) break;
         w->at = next;
     }
     return w->at;
@@ -119,23 +117,19 @@ static size_t margin(const char *text, size_t at, size_t end)
 {
     size_t begin = at;
     for (; at < end && nh_deck_is_space(text[at]); at++)
-        if (nh_deck_is_break(text[at]))
-            begin = at + 1;
+        if (nh_deck_is_break(text[at])) begin = at + 1;
     return at - begin;
 }
 
 static void skip_header(walk *w)
 {
-    while (w->at < w->end && !nh_deck_is_break(w->source[w->at]))
-        w->at++;
-    if (w->at < w->end)
-        w->at += break_length(w, w->at);
+    while (w->at < w->end && !nh_deck_is_break(w->source[w->at])) w->at++;
+    if (w->at < w->end) w->at += break_length(w, w->at);
 }
 
 static void skip_indent(walk *w, size_t indent)
 {
-    for (size_t i = 0; i < indent && w->at < w->end && w->source[w->at] == ' '; i++)
-        w->at++;
+    for (size_t i = 0; i < indent && w->at < w->end && w->source[w->at] == ' '; i++) w->at++;
 }
 
 static size_t find_block(walk *w, size_t offset)
@@ -147,8 +141,7 @@ static size_t find_block(walk *w, size_t offset)
     while (w->at < w->end) {
         char here = w->source[w->at], wanted = w->text[w->done];
         bool at_break = nh_deck_is_break(here), kept = wanted == '\n' || wanted == ' ';
-        if (w->done >= offset && (!at_break || kept || !wanted))
-            break;
+        if (w->done >= offset && (!at_break || kept || !wanted)) break;
         if (at_break) {
             w->at += break_length(w, w->at);
             w->done += kept;
@@ -165,25 +158,20 @@ static size_t find_block(walk *w, size_t offset)
 static size_t trim(const char *text, size_t offset)
 {
     size_t length = strlen(text);
-    if (offset > length)
-        offset = length;
+    if (offset > length) offset = length;
     for (size_t i = offset; i < length; i++)
-        if (!nh_deck_is_space(text[i]))
-            return offset;
-    while (offset > 0 && nh_deck_is_space(text[offset - 1]))
-        offset--;
+        if (!nh_deck_is_space(text[i])) return offset;
+    while (offset > 0 && nh_deck_is_space(text[offset - 1])) offset--;
     return offset;
 }
 
 size_t nh_deck_origin(const nh_deck *deck, const nh_deck_node *node, size_t offset)
 {
-    if (node->kind != NH_DECK_SCALAR || node->begin == node->end)
-        return node->begin;
+    if (node->kind != NH_DECK_SCALAR || node->begin == node->end) return node->begin;
     walk w = {.source = deck->source, .text = node->text, .at = node->begin, .end = node->end};
     char first = node->plain ? 'a' : deck->source[node->begin];
     offset = trim(node->text, offset);
-    if (first == '|' || first == '>')
-        return find_block(&w, offset);
+    if (first == '|' || first == '>') return find_block(&w, offset);
     if (first == '"' || first == '\'') {
         w.at++; /* the quotes themselves are no text */
         w.end = w.end - 1 > w.at ? w.end - 1 : w.at;

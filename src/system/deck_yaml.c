@@ -44,8 +44,7 @@ static const rewording table[] = {
 /* Only blanks between `from` and the end? */
 static bool nothing_after(const nh_deck *deck, size_t from)
 {
-    while (from < deck->length && nh_deck_is_space(deck->source[from]))
-        from++;
+    while (from < deck->length && nh_deck_is_space(deck->source[from])) from++;
     return from == deck->length;
 }
 
@@ -69,8 +68,7 @@ static bool explain_bracket(const nh_deck *deck, size_t at, size_t since, nh_err
     }
     nh_deck_fail_at(deck, at, error, "expected `,` or `%c` in the %s that begins with `%c` in line %zu", close,
                     map ? "map" : "list", open, line);
-    if (line_of(deck, at) != line)
-        return nh_error_hint(error, "is the `%c` in line %zu closed?", open, line);
+    if (line_of(deck, at) != line) return nh_error_hint(error, "is the `%c` in line %zu closed?", open, line);
     if (map && deck->source[at] == ':') return nh_error_hint(error, "is there a `,` before each key?");
     return nh_error_hint(error, NH_DECK_QUOTE_HINT);
 }
@@ -83,8 +81,7 @@ static bool explain_misfit(const nh_deck *deck, size_t at, const char *kind, siz
         nh_deck_fail_at(deck, at, error, "there is no key before the `:`");
         return nh_error_hint(error, "write `key: value`");
     }
-    while (before > 0 && (deck->source[before - 1] == ' ' || deck->source[before - 1] == '\t'))
-        before--;
+    while (before > 0 && (deck->source[before - 1] == ' ' || deck->source[before - 1] == '\t')) before--;
     if (before > 0 && !nh_deck_is_break(deck->source[before - 1])) {
         nh_deck_fail_at(deck, at, error, "unexpected text after the end of the value");
         return deck->source[at] == ',' ? nh_error_hint(error, "a list of several values stands in brackets, [ and ]")
@@ -104,8 +101,7 @@ static bool explain_tab(const nh_deck *deck, size_t at, nh_error *error)
 /* libyaml stands at the backslash or behind the letter that follows it. */
 static bool explain_escape(const nh_deck *deck, size_t at, nh_error *error)
 {
-    while (at > 0 && deck->source[at] != '\\')
-        at--;
+    while (at > 0 && deck->source[at] != '\\') at--;
     nh_deck_fail_at(deck, at, error, "a backslash in double quotes begins an escape sequence; this is not one");
     return nh_error_hint(error, "write \\\\ for a backslash, or use single quotes");
 }
@@ -126,8 +122,10 @@ static bool hint_line(const nh_deck *deck, size_t at, nh_error *error)
     if (length <= 0 || length > 120) return false;
     bool top = !at || nh_deck_is_break(source[at - 1]);
     if (source[next] == '=' && top && strpbrk(rest, "+-*/^(") && strpbrk(rest, "+-*/^(") < rest + length)
-        return nh_error_hint(error, "write `%.*s: %.*s` if this is a key; other quantities stand under `definitions:`, "
-                             "as `- %.*s = %.*s`", word, source + at, length, rest, word, source + at, length, rest),
+        return nh_error_hint(error,
+                             "write `%.*s: %.*s` if this is a key; other quantities stand under `definitions:`, "
+                             "as `- %.*s = %.*s`",
+                             word, source + at, length, rest, word, source + at, length, rest),
                true;
     if (source[next] == '=')
         return nh_error_hint(error, "write a colon after the key: `%.*s: %.*s`", word, source + at, length, rest), true;
@@ -149,8 +147,7 @@ static bool matches(const rewording *row, const char *problem, const char *conte
 static size_t visible(const nh_deck *deck, size_t at)
 {
     if (nothing_after(deck, at))
-        while (at > 0 && nh_deck_is_space(deck->source[at - 1]))
-            at--;
+        while (at > 0 && nh_deck_is_space(deck->source[at - 1])) at--;
     return at;
 }
 
@@ -170,30 +167,22 @@ static size_t equation_before(const nh_deck *deck, size_t at)
 bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const char *context, size_t since,
                      nh_error *error)
 {
-    if (deck->source[at] == '\t' || strstr(problem, "tab character"))
-        return explain_tab(deck, at, error);
-    if (strstr(problem, "expected ',' or"))
-        return explain_bracket(deck, at, since, error);
-    if (strstr(problem, "did not find expected key"))
-        return explain_misfit(deck, at, "map", since, error);
-    if (strstr(problem, "'-' indicator"))
-        return explain_misfit(deck, at, "list", since, error);
-    if (strstr(problem, "escape c") || strstr(problem, "hexdecimal"))
-        return explain_escape(deck, at, error);
+    if (deck->source[at] == '\t' || strstr(problem, "tab character")) return explain_tab(deck, at, error);
+    if (strstr(problem, "expected ',' or")) return explain_bracket(deck, at, since, error);
+    if (strstr(problem, "did not find expected key")) return explain_misfit(deck, at, "map", since, error);
+    if (strstr(problem, "'-' indicator")) return explain_misfit(deck, at, "list", since, error);
+    if (strstr(problem, "escape c") || strstr(problem, "hexdecimal")) return explain_escape(deck, at, error);
     at = visible(deck, at);
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
         const rewording *row = &table[i];
-        if (!matches(row, problem, context))
-            continue;
+        if (!matches(row, problem, context)) continue;
         size_t spot = row->at_context ? since : at, equation = equation_before(deck, spot);
         if (!row->context && strstr(row->problem, "mapping values") && equation < spot) {
             nh_deck_fail_at(deck, equation, error, "expected `key: value`");
             if (hint_line(deck, equation, error)) return false;
         }
-        if (row->what)
-            nh_deck_fail_at(deck, spot, error, "%s", row->what);
-        else
-            nh_deck_fail_at(deck, spot, error, "a value cannot begin with `%.1s`", deck->source + spot);
+        if (row->what) nh_deck_fail_at(deck, spot, error, "%s", row->what);
+        else nh_deck_fail_at(deck, spot, error, "a value cannot begin with `%.1s`", deck->source + spot);
         if (row->what && strchr(row->what, ':') && hint_line(deck, spot, error)) return false;
         return nh_error_hint(error, "%s", row->hint);
     }

@@ -322,9 +322,9 @@ static bool quadratic_root(const nh_constraint_samples *sample, size_t which, nh
 /* ---- several constraints, some of them linear ---- */
 
 typedef struct {
-    size_t k, left;         /* constraints; those not solved yet, which are the first in f and dependent */
-    nh_ex *f;               /* k: what must vanish; of solved ones: what their velocity is */
-    size_t *dependent;      /* k */
+    size_t k, left;    /* constraints; those not solved yet, which are the first in f and dependent */
+    nh_ex *f;          /* k: what must vanish; of solved ones: what their velocity is */
+    size_t *dependent; /* k */
 } triangle;
 
 static bool contains_only_parameters(const nh_constraint_samples *c, nh_ex e)

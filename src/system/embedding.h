@@ -18,36 +18,36 @@ typedef enum { NH_CHART_AUTO, NH_CHART_QUASI, NH_CHART_COORDINATES } nh_chart_ch
    a symbol of its own. */
 typedef struct {
     size_t coordinate;
-    nh_ex base, symbol;       /* symbol: prints as the velocity does */
-    nh_ex value, square;      /* sqrt(base) and symbol^2 in terms of the symbol */
+    nh_ex base, symbol;  /* symbol: prints as the velocity does */
+    nh_ex value, square; /* sqrt(base) and symbol^2 in terms of the symbol */
 } nh_root;
 
 typedef struct {
     const nh_system *system;
     nh_arena *arena;
-    const char *name;         /* "quasi-velocities (omega, v)" */
+    const char *name; /* "quasi-velocities (omega, v)" */
     bool quasi;
     size_t n, implicit;
-    nh_ex *w;                 /* n velocities of the chart */
-    nh_ex *rho;               /* m: coordinate velocities as functions of (t, q, w, u) */
-    nh_ex *framed;            /* the same of the rates along the frame (system/orientation.h); NULL: there is none */
+    nh_ex *w;      /* n velocities of the chart */
+    nh_ex *rho;    /* m: coordinate velocities as functions of (t, q, w, u) */
+    nh_ex *framed; /* the same of the rates along the frame (system/orientation.h); NULL: there is none */
     /* k coordinate indices, coordinate charts only; those of implicit velocities, or of a root with two branches, come
        first */
     size_t *dependent;
-    size_t *free;             /* n coordinate indices: whose velocities the w are, coordinate charts only */
-    nh_ex *u, *residual;      /* implicit velocities and the constraints that determine them */
-    size_t width;             /* 1 + m + n + implicit: the point (t, q, w, u) */
-    nh_ex *symbol;            /* width */
-    double *low, *high;       /* width: sampling box */
-    nh_tape *newton;          /* residual and d residual / d u; NULL when nothing is implicit */
-    double *probe;            /* probes x width: a few points for pivots and ranks */
+    size_t *free;        /* n coordinate indices: whose velocities the w are, coordinate charts only */
+    nh_ex *u, *residual; /* implicit velocities and the constraints that determine them */
+    size_t width;        /* 1 + m + n + implicit: the point (t, q, w, u) */
+    nh_ex *symbol;       /* width */
+    double *low, *high;  /* width: sampling box */
+    nh_tape *newton;     /* residual and d residual / d u; NULL when nothing is implicit */
+    double *probe;       /* probes x width: a few points for pivots and ranks */
     size_t probes;
-    int branch;               /* of a quadratic constraint: the sign of its root; 0 otherwise */
+    int branch; /* of a quadratic constraint: the sign of its root; 0 otherwise */
     /* of that root, and the root in coordinate velocities: branch*(2 a u + b), valid on both branches */
     nh_ex radicand, root;
-    size_t roots;             /* dependent velocities that are roots; that of a quadratic constraint is the first */
+    size_t roots; /* dependent velocities that are roots; that of a quadratic constraint is the first */
     nh_root *root_of;
-    double pivot;             /* least pivot of the elimination over the probes, relative */
+    double pivot; /* least pivot of the elimination over the probes, relative */
     /* the dependent velocities that the user had in mind are not determined anywhere near the domain: others were
        chosen */
     bool replaced;

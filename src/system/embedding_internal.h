@@ -12,11 +12,11 @@ typedef struct {
 } nh_quadratic;
 /* that velocity is this root */
 void nh_branches_quadratic(nh_chart *chart, size_t coordinate, const nh_quadratic *quadratic);
-void nh_branches_note(nh_chart *chart);  /* and other dependent velocities are roots, as they were written */
+void nh_branches_note(nh_chart *chart); /* and other dependent velocities are roots, as they were written */
 
 nh_chart *nh_embedding_new(nh_system *system, const char *name, size_t n, size_t implicit);
-void nh_embedding_symbols(nh_chart *chart);          /* symbol, low, high from w and u */
-double nh_embedding_score(void *chart, nh_ex e);     /* nh_pivot_score over the probes */
+void nh_embedding_symbols(nh_chart *chart);      /* symbol, low, high from w and u */
+double nh_embedding_score(void *chart, nh_ex e); /* nh_pivot_score over the probes */
 /* The same; a divisor that vanishes where the motion starts (system->start) is the last choice. */
 double nh_embedding_score_at_start(void *chart, nh_ex e);
 /* Is a value of this size zero at the points, or only small in its units (the mass of an electron)?  It is evaluated

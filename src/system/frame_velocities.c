@@ -49,8 +49,7 @@ bool nh_orientation_velocities(nh_system_reader *r)
     s->quasi_map = nh_system_take(r, m, sizeof *s->quasi_map);
     for (size_t j = 0; j < c->n; j++) s->quasi_velocity[j] = velocity_of(s, c->free[j]);
     s->quasi = c->n;
-    for (size_t i = 0; i < m; i++)
-        s->quasi_framed[i] = nh_substitute(s->dag, c->rho[i], c->n, c->w, s->quasi_velocity);
+    for (size_t i = 0; i < m; i++) s->quasi_framed[i] = nh_substitute(s->dag, c->rho[i], c->n, c->w, s->quasi_velocity);
     nh_orientation_map(s, s->quasi_framed, s->quasi_map);
     nh_chart_free(c);
     return true;

@@ -22,8 +22,8 @@
 typedef struct {
     nh_system *s;
     size_t n;
-    nh_ex *field;            /* n x coordinates */
-    const char **origin;     /* names of the velocities from which they were made */
+    nh_ex *field;        /* n x coordinates */
+    const char **origin; /* names of the velocities from which they were made */
 } basis;
 
 /* ---- the fields ---- */
@@ -226,8 +226,9 @@ bool nh_system_read_levels(nh_system_reader *r)
 bool nh_system_refuse_level(const nh_system *s, size_t level, bool proved, nh_error *error)
 {
     const nh_constraint *c = &s->constraint[s->constraints - s->levels + level];
-    nh_deck_fail(s->deck, c->node, 0, error, proved ? "motions leave this level: it is not one of an integral"
-                 : "whether motions stay on this level was not decided");
+    nh_deck_fail(s->deck, c->node, 0, error,
+                 proved ? "motions leave this level: it is not one of an integral"
+                        : "whether motions stay on this level was not decided");
     for (size_t i = 0; i < s->coordinates; i++)
         if (!nh_depends(s->dag, s->lagrangian, s->coordinate[i].q))
             return nh_error_hint(error, "%s does not occur in the Lagrangian: `p_%s` may be constant",

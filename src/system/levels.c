@@ -56,11 +56,15 @@ static range function_of(nh_function f, range a)
 {
     static const double half_turn = 3.1415926535897936;
     switch (f) {
-    case NH_SIN: case NH_COS: case NH_TANH: case NH_SIGN: return (range){-1, 1};
+    case NH_SIN:
+    case NH_COS:
+    case NH_TANH:
+    case NH_SIGN: return (range){-1, 1};
     case NH_EXP: return (range){0, INFINITY};
     case NH_COSH: return (range){1, INFINITY};
     case NH_ABS: return a.low > 0 ? a : a.high < 0 ? (range){-a.high, -a.low} : (range){0, INFINITY};
-    case NH_ATAN: case NH_ASIN: return (range){-half_turn / 2, half_turn / 2};
+    case NH_ATAN:
+    case NH_ASIN: return (range){-half_turn / 2, half_turn / 2};
     case NH_ACOS: return (range){0, half_turn};
     case NH_ATAN2: return (range){-half_turn, half_turn};
     case NH_ACOSH: return (range){0, INFINITY};
@@ -100,8 +104,9 @@ static range range_of(const nh_system *s, nh_ex e, int depth)
             out = product_of(out, numeric ? outwards(power_of(base, nh_number_of(d, x))) : everything);
         }
         return out;
-    default: return function_of(nh_function_of(d, e), nh_arity(d, e) ? range_of(s, nh_child(d, e, 0), depth + 1)
-        : everything);
+    default:
+        return function_of(nh_function_of(d, e),
+                           nh_arity(d, e) ? range_of(s, nh_child(d, e, 0), depth + 1) : everything);
     }
 }
 
@@ -115,8 +120,8 @@ static bool never_zero(const nh_system *s, nh_ex e)
 
 typedef struct {
     nh_system *system;
-    size_t k, m, width;   /* levels; coordinates; 1 + m */
-    nh_tape *tape;        /* k levels, then their derivatives by (t, q), column-major */
+    size_t k, m, width; /* levels; coordinates; 1 + m */
+    nh_tape *tape;      /* k levels, then their derivatives by (t, q), column-major */
     nh_tape_work *work;
     double *out, *dense, *step, *half; /* half: of the sampling interval of each */
 } search;
@@ -243,11 +248,13 @@ bool nh_levels_check(nh_system *s, uint64_t seed, nh_error *error)
         good = !proved && has_point(s, k, level, seed);
         if (good) continue;
         const nh_deck_node *node = s->constraint[a].node;
-        if (proved) nh_deck_fail(s->deck, node, 0, error,
-            "no real positions satisfy this constraint: its two sides differ everywhere");
+        if (proved)
+            nh_deck_fail(s->deck, node, 0, error,
+                         "no real positions satisfy this constraint: its two sides differ everywhere");
         else if (k == 1) nh_deck_fail(s->deck, node, 0, error, "no positions were found that satisfy this constraint");
-        else nh_deck_fail(s->deck, node, 0, error,
-            "no positions were found that satisfy this constraint and those before it");
+        else
+            nh_deck_fail(s->deck, node, 0, error,
+                         "no positions were found that satisfy this constraint and those before it");
         if (proved) nh_error_hint(error, "check the signs and the parameter values");
         else
             nh_error_hint(

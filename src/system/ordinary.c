@@ -10,11 +10,10 @@
 #include "system/deck_build.h"
 
 static const char *const top_keys[] = {
-    "name",        "title",     "source",     "parameters", "coordinates", "definitions", "lagrangian",
-    "constraints", "dependent", "velocities", "forces",     "domain",      "known",       "doc",
-    "bodies",      "joints",    "gravity",    "wheels",     "symmetry",    "draw",        "robustness",
-    "include",     "urdf",      "base",       "notes",      "levels",      "points",      "springs",
-    "dampers",     "actuators", "dissipation", "functions"};
+    "name",      "title",      "source",   "parameters", "coordinates", "definitions", "lagrangian",  "constraints",
+    "dependent", "velocities", "forces",   "domain",     "known",       "doc",         "bodies",      "joints",
+    "gravity",   "wheels",     "symmetry", "draw",       "robustness",  "include",     "urdf",        "base",
+    "notes",     "levels",     "points",   "springs",    "dampers",     "actuators",   "dissipation", "functions"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 static bool among(const char *const *words, size_t count, const char *word)
@@ -27,11 +26,12 @@ static bool among(const char *const *words, size_t count, const char *word)
 /* The key that is meant by a word: in other letters, with or without an s at its end, or by its sign; NULL: none. */
 static const char *meant(const char *word)
 {
-    static const char *const others[][2] = {
-        {"L", "lagrangian"},      {"kinetic", "T"},          {"kinetic_energy", "T"},  {"kinetic energy", "T"},
-        {"potential", "V"},       {"potential_energy", "V"}, {"potential energy", "V"}, {"params", "parameters"},
-        {"constants", "parameters"}, {"vars", "coordinates"}, {"variables", "coordinates"},
-        {"generalized_coordinates", "coordinates"}};
+    static const char *const others[][2] = {{"L", "lagrangian"},          {"kinetic", "T"},
+                                            {"kinetic_energy", "T"},      {"kinetic energy", "T"},
+                                            {"potential", "V"},           {"potential_energy", "V"},
+                                            {"potential energy", "V"},    {"params", "parameters"},
+                                            {"constants", "parameters"},  {"vars", "coordinates"},
+                                            {"variables", "coordinates"}, {"generalized_coordinates", "coordinates"}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (!strcmp(word, others[i][0])) return others[i][1];
     size_t n = strlen(word);
@@ -113,8 +113,7 @@ static const nh_deck_node *listed(nh_deck *deck, const char *key, const nh_deck_
 {
     static const char *const equations[] = {"definitions", "forces"};
     bool scalar = value->kind == NH_DECK_SCALAR && value->text[0];
-    if (!strcmp(key, "coordinates"))
-        return each(deck, scalar ? split(deck, value, ",; \n") : value, without_time);
+    if (!strcmp(key, "coordinates")) return each(deck, scalar ? split(deck, value, ",; \n") : value, without_time);
     if (!strcmp(key, "parameters")) return each(deck, scalar ? split(deck, value, ",;\n") : value, as_parameter);
     if (!strcmp(key, "dependent")) return scalar ? split(deck, value, ",; \n") : value;
     if (value->kind == NH_DECK_MAP && among(equations, 2, key)) return entries(deck, value);
@@ -155,7 +154,11 @@ static void move_energies(nh_deck *deck)
     nh_deck_put(deck, root, "definitions", list);
     if (found[0] && !(found[1] && found[2]) && !nh_deck_get(root, "lagrangian"))
         nh_deck_put(deck, root, "lagrangian",
-                    nh_deck_word_at(deck, found[1] ? "T - V" : found[2] ? "T - U" : "T", found[0]));
+                    nh_deck_word_at(deck,
+                                    found[1]   ? "T - V"
+                                    : found[2] ? "T - U"
+                                               : "T",
+                                    found[0]));
     deck->root = root;
 }
 
@@ -225,8 +228,9 @@ static bool no_parameters(nh_deck *deck, nh_error *error)
     if (first) {
         bool some = nh_deck_get(root, "parameters") != NULL;
         nh_deck_fail(deck, first, 0, error, "unknown key `%s`", first->text);
-        nh_error_hint(error, some ? "list all parameters together: add to `parameters:` the entries {%s}"
-                                  : "parameters: {%s}", nh_text_string(&line));
+        nh_error_hint(error,
+                      some ? "list all parameters together: add to `parameters:` the entries {%s}" : "parameters: {%s}",
+                      nh_text_string(&line));
     }
     nh_text_clear(&line);
     return !first;
@@ -367,7 +371,9 @@ static const char *with_commas(nh_deck *deck, const search *s, const char *behin
     const char *out = "";
     for (const char *at = nh_text_string(&s->names); *at; at += strcspn(at, " ") + 1)
         out = nh_arena_printf(deck->arena, "%s%s%.*s%s", out, *out ? ", " : "", (int)strcspn(at, " "), at,
-                              !*behind ? "" : strncmp(at, "g ", 2) ? behind : ": 9.81");
+                              !*behind               ? ""
+                              : strncmp(at, "g ", 2) ? behind
+                                                     : ": 9.81");
     return out;
 }
 

@@ -22,18 +22,18 @@
 typedef struct {
     const char *name;
     const nh_deck_node *node;
-    nh_ex q[3], v[3];   /* its coordinates and their velocities */
-    size_t first;       /* these are the system's coordinates first, first + 1, first + 2 */
-    bool space;         /* the angular velocities are components in space */
+    nh_ex q[3], v[3];               /* its coordinates and their velocities */
+    size_t first;                   /* these are the system's coordinates first, first + 1, first + 2 */
+    bool space;                     /* the angular velocities are components in space */
     const char *word[3], *entry[9]; /* names of the angular velocities and of the matrix entries */
-    nh_ex matrix[9];    /* row-major */
-    nh_ex entry_symbol[9]; /* symbols that stand for these in printed formulas */
-    nh_ex map[9];       /* F */
-    nh_ex rate[3];      /* the angular velocities as functions of coordinates and their velocities */
-    nh_ex body[3];      /* the same in the body */
-    nh_ex framed[3];    /* symbols that stand for `rate` in nh_system.framed and in framed constraints */
-    nh_ex framed_body[3]; /* those in the body */
-    nh_ex omega[3];     /* quasi-velocities */
+    nh_ex matrix[9];                /* row-major */
+    nh_ex entry_symbol[9];          /* symbols that stand for these in printed formulas */
+    nh_ex map[9];                   /* F */
+    nh_ex rate[3];                  /* the angular velocities as functions of coordinates and their velocities */
+    nh_ex body[3];                  /* the same in the body */
+    nh_ex framed[3];                /* symbols that stand for `rate` in nh_system.framed and in framed constraints */
+    nh_ex framed_body[3];           /* those in the body */
+    nh_ex omega[3];                 /* quasi-velocities */
 } nh_orientation;
 
 /* All expressions, from q, v and the names. */

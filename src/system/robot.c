@@ -199,7 +199,7 @@ static void note_fixed(reader *r, const nh_deck_node *body)
 static bool base_joint(reader *r, const nh_deck_node *base, const nh_deck_node **out)
 {
     static const char *const plane[] = {"x", "y", "heading"}, *const space[] = {"x", "y", "z", "yaw", "pitch", "roll"},
-                            *const turned[] = {"x", "y", "z", "R"};
+                             *const turned[] = {"x", "y", "z", "R"};
     size_t roots;
     const char *type;
     char height[height_size];

@@ -12,7 +12,6 @@
 
 #include "graph/expr.h"
 
-
 typedef struct {
     nh_ex R[9], p[3]; /* rotation, row-major: R[3*i + j]; origin */
 } nh_pose;

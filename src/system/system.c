@@ -83,9 +83,8 @@ static const char undeclared[] = "declare it under parameters, coordinates or de
 static const char *suggest(const scope *s, const char *name, nh_parse_fault *fault)
 {
     const nh_system *y = s->system;
-    size_t n = 0,
-           max = 2 + s->extras + y->definitions + y->parameters + 2 * y->coordinates + y->quasi + 12 * y->orientations +
-               NH_FUNCTION_COUNT;
+    size_t n = 0, max = 2 + s->extras + y->definitions + y->parameters + 2 * y->coordinates + y->quasi +
+                        12 * y->orientations + NH_FUNCTION_COUNT;
     const char **list = nh_alloc_array(max, sizeof *list);
     for (size_t i = 0; i < s->extras; i++) list[n++] = s->extra[i].name;
     for (size_t i = 0; i < y->definitions; i++) list[n++] = y->definition[i].name;
@@ -241,8 +240,10 @@ static bool read_node(const nh_deck *deck, const nh_deck_node *node, size_t skip
     nh_deck_fail(deck, node, skip + fault->offset, error, "%s", fault->what);
     const char *letter = nh_deck_escaped_letter(deck, node);
     if (letter)
-        return nh_error_hint(error, "between double quotes YAML reads \\%c in its own way: write '\\%s' between single "
-                                    "quotes, or %s", *letter, letter, letter);
+        return nh_error_hint(error,
+                             "between double quotes YAML reads \\%c in its own way: write '\\%s' between single "
+                             "quotes, or %s",
+                             *letter, letter, letter);
     if (!strcmp(fault->hint, undeclared)) return nh_ordinary_hint_declare(deck, is_known, s, error);
     return fault->hint[0] ? nh_error_hint(error, "%s", fault->hint) : false;
 }

@@ -29,11 +29,11 @@ typedef struct {
 
 typedef struct {
     const char *text;
-    nh_ex lhs, rhs;  /* f = lhs - rhs */
-    bool position;   /* it was an equation between positions, level = 0: lhs and rhs are its time derivative */
+    nh_ex lhs, rhs; /* f = lhs - rhs */
+    bool position;  /* it was an equation between positions, level = 0: lhs and rhs are its time derivative */
     /* without `position`: a function of positions that is known to have the rate f, the height of a wheel; or 0 */
     nh_ex level;
-    nh_ex framed;    /* with orientations: lhs - rhs in the symbols of angular velocities (system/orientation.h) */
+    nh_ex framed; /* with orientations: lhs - rhs in the symbols of angular velocities (system/orientation.h) */
     const nh_deck_node *node;
 } nh_constraint;
 
@@ -47,7 +47,7 @@ typedef struct {
     nh_ex value;
     /* of a known current: the reason why the program's own ansatz does not contain it, or NULL */
     const char *out_of_reach;
-    bool unwatched;           /* of a known current: no column of a motion */
+    bool unwatched; /* of a known current: no column of a motion */
 } nh_named;
 
 typedef struct {
@@ -56,7 +56,7 @@ typedef struct {
      * none */
     const char *input;
     double value;
-    const nh_deck *deck;     /* where it was written: NULL for the command line */
+    const nh_deck *deck; /* where it was written: NULL for the command line */
     const nh_deck_node *key;
     /* with bottom > 0: exactly this ratio; the name is then a definition instead of a parameter */
     int64_t top, bottom;
@@ -68,7 +68,7 @@ typedef struct {
 typedef struct {
     const char *name, *doc, *over;
     const char *initial, *velocities; /* NULL: not given */
-    double until, step;          /* 0: not given; step: by methods with this fixed step */
+    double until, step;               /* 0: not given; step: by methods with this fixed step */
     size_t settings, options;
     nh_setting *setting, *option;
 } nh_named_map;
@@ -78,11 +78,11 @@ typedef struct {
 typedef struct {
     const char *name;
     size_t starts, conditions, values;
-    nh_named *start;   /* in the initial state (t, coordinates, either velocities) */
-    nh_ex *symbol;     /* their symbols in the motion */
-    nh_ex *condition;  /* vanish at initial states that it holds for */
-    bool *given;       /* per coordinate: is it known? */
-    nh_ex *value;      /* per coordinate, in t, parameters and the symbols */
+    nh_named *start;  /* in the initial state (t, coordinates, either velocities) */
+    nh_ex *symbol;    /* their symbols in the motion */
+    nh_ex *condition; /* vanish at initial states that it holds for */
+    bool *given;      /* per coordinate: is it known? */
+    nh_ex *value;     /* per coordinate, in t, parameters and the symbols */
 } nh_known_motion;
 
 typedef struct {
@@ -101,30 +101,30 @@ typedef struct {
     /* number of constraints, the last ones, that put the system on a level of an integral */
     size_t levels;
     nh_named *definition;
-    nh_interval *interval;   /* the sampling box as far as the user gave it */
+    nh_interval *interval; /* the sampling box as far as the user gave it */
     size_t reaches;
-    nh_interval *reach;      /* default intervals that were widened (system/reach.h) */
+    nh_interval *reach;       /* default intervals that were widened (system/reach.h) */
     nh_named *current, *trap; /* known currents; functions known not to be conserved */
-    nh_chain *chain;         /* bodies and joints; NULL when the file has none */
-    size_t symmetries;       /* fields on configuration space that the file names as generators of a group */
-    nh_ex *symmetry;         /* symmetries x coordinates: components */
+    nh_chain *chain;          /* bodies and joints; NULL when the file has none */
+    size_t symmetries;        /* fields on configuration space that the file names as generators of a group */
+    nh_ex *symmetry;          /* symmetries x coordinates: components */
     size_t shapes;
-    nh_shape *shape;         /* to be drawn, in t, coordinates and parameters */
+    nh_shape *shape; /* to be drawn, in t, coordinates and parameters */
     size_t robustness_maps;
     nh_named_map *robustness_map;
-    nh_ex lagrangian;        /* with the energies of bodies and joints */
-    nh_ex *force;            /* per coordinate; the number 0 where there is none */
+    nh_ex lagrangian; /* with the energies of bodies and joints */
+    nh_ex *force;     /* per coordinate; the number 0 where there is none */
     bool has_forces;
-    bool driven; /* an input over time replaces a parameter */
-    int branch;              /* of a quadratic constraint: the sign of its root, or 0: the domain chooses */
-    size_t dependents;       /* 0 when the user named none */
-    size_t *dependent;       /* coordinate indices */
+    bool driven;       /* an input over time replaces a parameter */
+    int branch;        /* of a quadratic constraint: the sign of its root, or 0: the domain chooses */
+    size_t dependents; /* 0 when the user named none */
+    size_t *dependent; /* coordinate indices */
     /* (t, q, q') at which formulas of dependent velocities must be regular; NULL: none */
     const double *start;
-    size_t quasi;            /* number of quasi-velocities, 0 without a chart */
-    nh_ex *quasi_velocity;   /* symbols */
-    nh_ex *quasi_map;        /* velocity of each coordinate */
-    size_t orientations;     /* system/orientation.h */
+    size_t quasi;          /* number of quasi-velocities, 0 without a chart */
+    nh_ex *quasi_velocity; /* symbols */
+    nh_ex *quasi_map;      /* velocity of each coordinate */
+    size_t orientations;   /* system/orientation.h */
     nh_orientation *orientation;
     /* with orientations: the Lagrangian in the symbols of angular velocities, the Lagrangian that it was made of, and
      * the rates along the frame as functions of the quasi-velocities (NULL: not known) */

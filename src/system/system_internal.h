@@ -27,9 +27,9 @@ typedef struct {
     nh_deck *deck;
     const nh_deck_node *root;
     nh_error *error;
-    bool exact; /* a parameter was given an exact value or a formula */
-    nh_ex dissipation;  /* Rayleigh's function */
-    const char **note;  /* of springs and dampers */
+    bool exact;        /* a parameter was given an exact value or a formula */
+    nh_ex dissipation; /* Rayleigh's function */
+    const char **note; /* of springs and dampers */
     size_t notes;
 } nh_system_reader;
 

@@ -50,8 +50,8 @@ static bool frame_of(nh_system_reader *r, const nh_deck_node *item, nh_orientati
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "frame", r->error)) return false;
     o->space = !strcmp(node->text, "space");
     return o->space || !strcmp(node->text, "body") ||
-           nh_deck_fail(r->deck, node, 0, r->error,
-                        "`%s` is no frame of angular velocities; expected body or space", node->text);
+           nh_deck_fail(r->deck, node, 0, r->error, "`%s` is no frame of angular velocities; expected body or space",
+                        node->text);
 }
 
 bool nh_orientation_declare(nh_system_reader *r, const nh_deck_node *item, const nh_deck_node *name, const char *doc)

@@ -193,8 +193,8 @@ static bool consists_of(const char *word, const char *before, const char *middle
 
 const char *nh_system_velocity_meant(const nh_system *s, const char *word, const char *near)
 {
-    static const char *const around[][2] = {{"", "dot"}, {"", "_dot"}, {"dot", ""}, {"dot_", ""}, {"d", ""},
-                                            {"d", "/dt"}, {"d", "_dt"}, {"v", ""},  {"v_", ""}, {"", "d"}};
+    static const char *const around[][2] = {{"", "dot"},  {"", "_dot"}, {"dot", ""}, {"dot_", ""}, {"d", ""},
+                                            {"d", "/dt"}, {"d", "_dt"}, {"v", ""},   {"v_", ""},   {"", "d"}};
     static const char digits[] = "0123456789";
     const char *same = NULL; /* the coordinate that ends in the digits after v */
     size_t alike = 0;

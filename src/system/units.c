@@ -92,10 +92,11 @@ static const struct {
                 {"f", 1e-15}, {"a", 1e-18}, {"z", 1e-21},     {"y", 1e-24}};
 /* Words that people write for units: refused, with the symbol as a suggestion. */
 static const char *const words[][2] = {
-    {"meter", "m"}, {"metre", "m"}, {"meters", "m"}, {"metres", "m"}, {"kilogram", "kg"}, {"gram", "g"},
-    {"second", "s"}, {"seconds", "s"}, {"sec", "s"}, {"newton", "N"}, {"joule", "J"}, {"watt", "W"}, {"volt", "V"},
-    {"ampere", "A"}, {"amp", "A"}, {"tesla", "T"}, {"hertz", "Hz"}, {"pascal", "Pa"}, {"degree", "deg"},
-    {"degrees", "deg"}, {"radian", "rad"}, {"radians", "rad"}, {"hour", "h"}, {"minute", "min"}, {"kelvin", "K"}};
+    {"meter", "m"},    {"metre", "m"},     {"meters", "m"},  {"metres", "m"},   {"kilogram", "kg"},
+    {"gram", "g"},     {"second", "s"},    {"seconds", "s"}, {"sec", "s"},      {"newton", "N"},
+    {"joule", "J"},    {"watt", "W"},      {"volt", "V"},    {"ampere", "A"},   {"amp", "A"},
+    {"tesla", "T"},    {"hertz", "Hz"},    {"pascal", "Pa"}, {"degree", "deg"}, {"degrees", "deg"},
+    {"radian", "rad"}, {"radians", "rad"}, {"hour", "h"},    {"minute", "min"}, {"kelvin", "K"}};
 enum {
     scaled_count = sizeof scaled / sizeof *scaled,
     plain_count = sizeof plain / sizeof *plain,
@@ -179,10 +180,10 @@ static bool is_name(const char *name, nh_unit *out)
 /* One letter resembles every other one: only longer names are compared. */
 static const char *nearest(const char *name)
 {
-    static const char *const common[] = {
-        "kg", "mm", "cm", "km", "ms", "kHz", "MHz", "kN", "mN", "mol", "rad", "Hz", "Pa", "kPa", "MPa", "kJ", "kW",
-        "mV", "kV", "mA", "Wb", "ohm", "bar", "eV", "min", "deg", "rpm", "arcmin", "arcsec", "atm", "lbf", "turn",
-        "rev"};
+    static const char *const common[] = {"kg",     "mm",     "cm",  "km",  "ms",   "kHz", "MHz", "kN",  "mN",
+                                         "mol",    "rad",    "Hz",  "Pa",  "kPa",  "MPa", "kJ",  "kW",  "mV",
+                                         "kV",     "mA",     "Wb",  "ohm", "bar",  "eV",  "min", "deg", "rpm",
+                                         "arcmin", "arcsec", "atm", "lbf", "turn", "rev"};
     for (size_t i = 0; i < word_count; i++)
         if (!strcmp(words[i][0], name)) return words[i][1];
     return strlen(name) < 2 ? NULL : nh_text_nearest(name, common, sizeof common / sizeof *common);
@@ -217,8 +218,8 @@ static bool take(reader *r, const char *sign)
 /* A sign of a superscript; its value is added to those before it. */
 static bool superscript(reader *r, double *value)
 {
-    static const char *const signs[] = {
-        "\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+    static const char *const signs[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                        "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
         if (take(r, signs[i])) return *value = 10 * *value + (double)i, true;
     return false;
@@ -255,8 +256,8 @@ static bool exponent(reader *r, double *value)
 
 static bool is_letter(const reader *r)
 {
-    return isalpha((unsigned char)*r->at) || *r->at == '%' || *r->at == '_'
-        || ((unsigned char)*r->at >= 0x80 && strncmp(r->at, "\u00b7", 2));
+    return isalpha((unsigned char)*r->at) || *r->at == '%' || *r->at == '_' ||
+           ((unsigned char)*r->at >= 0x80 && strncmp(r->at, "\u00b7", 2));
 }
 
 static bool name(reader *r, nh_unit *out)

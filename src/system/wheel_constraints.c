@@ -46,13 +46,12 @@ static void add_constraint(nh_system *s, const nh_wheel *w, const nh_ex *row, nh
     nh_ex sum = row[s->coordinates];
     for (size_t i = 0; i < s->coordinates; i++) sum = nh_add(d, sum, nh_mul(d, row[i], velocity_of(s, i)));
     char *text = nh_print_string(d, nh_orientation_shown(s, sum));
-    s->constraint[s->constraints++] = (nh_constraint){
-        .text = nh_arena_printf(s->arena, "%s = 0", text),
-        .lhs = nh_orientation_written(s, sum),
-        .rhs = nh_int(d, 0),
-        .level = level,
-        .framed = sum,
-        .node = w->node};
+    s->constraint[s->constraints++] = (nh_constraint){.text = nh_arena_printf(s->arena, "%s = 0", text),
+                                                      .lhs = nh_orientation_written(s, sum),
+                                                      .rhs = nh_int(d, 0),
+                                                      .level = level,
+                                                      .framed = sum,
+                                                      .node = w->node};
     nh_free(text);
 }
 

@@ -19,11 +19,11 @@
 
 typedef struct {
     nh_dag *dag;
-    nh_pose pose;         /* of the frame before the turn, in the ground's frame */
-    nh_twist twist;       /* relative to the surface; w with the turn */
-    nh_ex n[3];           /* the surface's normal */
-    nh_ex height;         /* of the frame's origin above the surface */
-    nh_ex tangent[2][3];  /* the surface's own axes across it */
+    nh_pose pose;        /* of the frame before the turn, in the ground's frame */
+    nh_twist twist;      /* relative to the surface; w with the turn */
+    nh_ex n[3];          /* the surface's normal */
+    nh_ex height;        /* of the frame's origin above the surface */
+    nh_ex tangent[2][3]; /* the surface's own axes across it */
 } station;
 
 static bool same(const nh_ex a[3], const nh_ex b[3]) { return !memcmp(a, b, 3 * sizeof *a); }

@@ -22,6 +22,6 @@ from .analysis import Analysis, Current
 from .motion import Benchmark, Linearization, Picture, Simulation, Table
 from .system import System, system, systems
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __all__ = ["Analysis", "ArgumentError", "Benchmark", "Classification", "Current", "Error", "Formula", "InputError", "Interrupted", "LimitError", "Linearization", "NumericalError", "Picture",
            "Record", "Reduction", "Result", "Simulation", "System", "Table", "UsageError", "Verification", "library_version", "system", "systems"]
