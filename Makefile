@@ -32,7 +32,7 @@ CCACHE := $(if $(shell command -v ccache 2>/dev/null),ccache )
 CC      = $(CCACHE)gcc
 PREFIX  = /usr/local
 LIBDIR  = $(PREFIX)/lib
-VERSION = 0.1.0
+VERSION = 0.2.0
 # Of the binary interface nhsym.h: another number when a program that was compiled with the old one would no longer run (docs/changes.md).
 SONAME  = libnhsym.so.1
 BUILD   = build$(if $(SANITIZE),-$(if $(filter thread,$(SANITIZE)),threads,sanitize))$(KIND:%=-%)
@@ -175,7 +175,7 @@ compile_commands.json:
 
 FORMATTER = clang-format-14
 format:
-	@$(FORMATTER) -i $(wildcard src/*/*.[ch])
+	@$(FORMATTER) -i $(wildcard src/*.h src/*/*.[ch])
 
 bench: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all benches $(BUILD)/tests/nhsym-shared
