@@ -1,10 +1,10 @@
 /* bench_stages: what each row of the search (search/staged_search.h) finds that the others do not.
  *
- *     bench_stages FOLDER [stored|greedy|main|selections|rows|leave|whole|all [SET]]     prints the page docs/stages.md
+ *     bench_stages FOLDER [base|stored|greedy|main|selections|rows|leave|whole|all [SET]]     prints the page docs/stages.md
  *
  * Every system of every set is analysed by a process of its own, on one thread, with all rows and with some left out; its counted work, its memory and,
  * as a last resort, its processor time are bounded.  Results are kept in FOLDER, a file per system, so that a run continues where it was stopped.  The second
- * word ends it early: `stored` runs nothing, `greedy` for the last table only, `main` the first two selections and each row, `selections` and `leave` all
+ * word ends it early: `base` runs all rows only, `stored` nothing, `greedy` for the last table only, `main` the first two selections and each row, `selections` and `leave` all
  * up to that table; `whole` also runs what need not be run (below).  With the third word only one set is looked at.
  *
  * Two runs are the same where the second leaves out, besides, only rows that found nothing in the first: then the second is not made. */
@@ -26,8 +26,6 @@ enum { MOST_TASKS = 600, MOST_RESULTS = 300, MOST_FORMULAS = 24, RANDOM_SYSTEMS 
 static const double long_run = 8; /* s: a system that takes longer with all rows is not measured */
 static const double megabytes = 1500, cpu_limit = 60;
 
-/* The bit of the construction (search/missing.h), which is no row of the table. */
-#define CONSTRUCT (UINT64_C(1) << 63)
 /* With the analysis file of the same name, whose fits come first. */
 #define ANALYSIS (UINT64_C(1) << 62)
 
@@ -196,7 +194,7 @@ static void child(const task *t, uint64_t mask, const result *all, FILE *out)
 {
     char analysis[200];
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = t->path, .left_out = mask & ~(CONSTRUCT | ANALYSIS), .seed_given = true};
+    nh_analyze_request q = {.system_path = t->path, .left_out = mask & ~ANALYSIS, .seed_given = true};
     snprintf(analysis, sizeof analysis, "analyses/%s.yaml", t->name);
     if (mask & ANALYSIS) q.analysis_path = analysis;
     nh_options_default(&q.options);
@@ -204,7 +202,6 @@ static void child(const task *t, uint64_t mask, const result *all, FILE *out)
     q.options.max_seconds = 1e6; /* counted work ends a search, the same on every machine */
     q.options.steps = 2000;      /* motions are not what is measured here */
     q.options.until = 0.1;
-    if (mask & CONSTRUCT) q.options.construct = 0;
     nh_limit_memory_set(1e6 * megabytes);
     setrlimit(RLIMIT_CPU, &(struct rlimit){(rlim_t)cpu_limit, (rlim_t)cpu_limit + 1});
     nh_analysis *r = nh_analysis_create(&q, &error);
@@ -254,7 +251,7 @@ static result *same_run(task *t, uint64_t mask)
     for (size_t i = 0; i < t->results; i++) {
         const result *r = &t->result[i];
         uint64_t further = mask & ~r->mask;
-        if (r->status == 0 && !(r->mask & ~mask) && !(further & (r->used | CONSTRUCT | ANALYSIS))) return &t->result[i];
+        if (r->status == 0 && !(r->mask & ~mask) && !(further & (r->used | ANALYSIS))) return &t->result[i];
     }
     return NULL;
 }
@@ -374,7 +371,6 @@ static total total_of(size_t set, uint64_t mask, bool must_run)
 
 static uint64_t bit_of(const char *name)
 {
-    if (!strcmp(name, "construct")) return CONSTRUCT;
     for (size_t i = 0; i < rows; i++)
         if (!strcmp(nh_staged_search_row(i), name)) return UINT64_C(1) << i;
     fprintf(stderr, "no row %s\n", name);
@@ -397,7 +393,6 @@ static void print_names(uint64_t mask)
     bool some = false;
     for (size_t i = 0; i < rows; i++)
         if (mask >> i & 1) printf("%s%s", some ? ", " : "", nh_staged_search_row(i)), some = true;
-    if (mask & CONSTRUCT) printf("%sconstruct", some ? ", " : ""), some = true;
     if (!some) printf("none");
 }
 
@@ -481,11 +476,11 @@ static void print_leave_one_out(void)
     puts("## Each row alone left out\n\nIntegrals that only this row finds, per set; systems in which it found something with all rows; systems whose formulas become "
          "longer than 1.5 times their length and 40 characters without it; the change of the length of all formulas, and of the processor seconds of the systems in which "
          "it found something.\n\n| row | catalogue | published | unseen | random | generated | used in | longer | characters | seconds |\n|---|---|---|---|---|---|---|---|---|---|");
-    for (size_t i = 0; i <= rows; i++) {
-        uint64_t mask = i < rows ? UINT64_C(1) << i : CONSTRUCT;
+    for (size_t i = 0; i < rows; i++) {
+        uint64_t mask = UINT64_C(1) << i;
         total sum = {0};
         size_t used = 0;
-        printf("| %s |", i < rows ? nh_staged_search_row(i) : "construct");
+        printf("| %s |", nh_staged_search_row(i));
         for (size_t set = 0; set < SETS; set++) {
             total s = total_of(set, mask, whole);
             print_cell(&s);
@@ -499,9 +494,7 @@ static void print_leave_one_out(void)
             used += (all->used & mask) != 0;
             if (r) seconds += r->seconds - all->seconds;
         }
-        if (i < rows) printf(" %zu |", used);
-        else printf(" |");
-        printf(" %zu | %+.0f | %+.1f |\n", sum.longer, sum.length - sum.base_length, seconds);
+        printf(" %zu | %zu | %+.0f | %+.1f |\n", used, sum.longer, sum.length - sum.base_length, seconds);
         fflush(stdout);
     }
     puts("");
@@ -613,6 +606,7 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < task_count; i++) read_results(&tasks[i]);
     puts("");
     print_sets();
+    if (!strcmp(until, "base")) return 0;
     bool first = !strcmp(until, "main");
     print_selections(first ? 2 : SIZE_MAX);
     if (!strcmp(until, "selections")) return 0;

@@ -329,6 +329,22 @@ static const unseen UNSEEN[] = {
      "constraints: [\"(x' + c*th'*sin(th))*sin(th + a) = (y' - c*th'*cos(th))*cos(th + a) + l*(th' + a')\", \"(x' - c*th'*sin(th))*sin(th + b) = (y' + c*th'*cos(th))*cos(th + b) + l*(th' + b')\"]\n"
      "known: {currents: [{name: energy, expr: \"M/2*(x'^2 + y'^2) + J/2*th'^2 + J1/2*((th' + a')^2 + (th' + b')^2)\"}]}\n",
      1},
+    /* the momenta had numbers instead of masses as coefficients, and held for the masses of the file only */
+    {"three bodies",
+     "parameters: {G: 1, m1: 1.3, m2: 1.6, m3: 1.9}\n"
+     "coordinates: [x1, y1, z1, x2, y2, z2, x3, y3, z3]\n"
+     "lagrangian: m1/2*(x1'^2 + y1'^2 + z1'^2) + m2/2*(x2'^2 + y2'^2 + z2'^2) + m3/2*(x3'^2 + y3'^2 + z3'^2)"
+     " + G*m1*m2/sqrt((x1 - x2)^2 + (y1 - y2)^2 + (z1 - z2)^2) + G*m1*m3/sqrt((x1 - x3)^2 + (y1 - y3)^2 + (z1 - z3)^2)"
+     " + G*m2*m3/sqrt((x2 - x3)^2 + (y2 - y3)^2 + (z2 - z3)^2)\n"
+     "known: {currents: [{name: centre, expr: \"m1*x1 + m2*x2 + m3*x3 - t*(m1*x1' + m2*x2' + m3*x3')\"}]}\n",
+     10},
+    /* velocities in denominators, and kinks: each is found by a row of the search of its own */
+    {"modified Emden equation",
+     "coordinates: [x]\n"
+     "lagrangian: 1/(x' + x^2)\n"
+     "domain: {x: [0.5, 1.5]}\n"
+     "known: {currents: [{name: time, expr: \"t - x/(x' + x^2)\"}]}\n",
+     2},
     /* cos t has no parameter, and was taken for a wave of a coordinate; two waves together are nearly dependent for t in [0, 1] */
     {"oscillators, one of them driven by cos t",
      "coordinates: [x, y]\n"

@@ -57,6 +57,24 @@ static nh_ex component(const nh_model *o, size_t s, const nh_ex *zeta, nh_ex tau
     return nh_simplify_short(d, sum, 0);
 }
 
+/* xi^s dL/dq^s, with components that are equal outside of their sum: forces between bodies cancel in it as they are
+ * written, also where all are displaced by t. */
+static nh_ex work_along(const nh_model *o, const nh_ex *xi)
+{
+    nh_dag *d = o->dag;
+    nh_ex work = nh_int(d, 0);
+    for (size_t s = 0; s < o->m; s++) {
+        nh_ex sum = nh_int(d, 0);
+        size_t first = 0;
+        while (xi[first] != xi[s]) first++;
+        if (first < s) continue;
+        for (size_t r = s; r < o->m; r++)
+            if (xi[r] == xi[s]) sum = nh_add(d, sum, nh_diff(d, o->system->lagrangian, o->system->coordinate[r].q));
+        work = nh_add(d, work, nh_mul(d, xi[s], sum));
+    }
+    return work;
+}
+
 bool nh_noether_equation(const nh_model *o, nh_ex phi, const nh_ex *zeta, nh_ex *out)
 {
     nh_dag *d = o->dag;
@@ -74,8 +92,8 @@ bool nh_noether_equation(const nh_model *o, nh_ex phi, const nh_ex *zeta, nh_ex 
     if (good) {
         nh_ex G = nh_simplify_short(d, without_velocities(o, nh_sub(d, phi, nh_model_compose(o, P))), 0);
         *out = nh_add(d, rate(o, G), nh_mul(d, tau, nh_diff(d, L, y->t)));
+        *out = nh_add(d, *out, work_along(o, xi));
         for (size_t s = 0; s < o->m; s++) {
-            *out = nh_add(d, *out, nh_mul(d, xi[s], nh_diff(d, L, y->coordinate[s].q)));
             *out = nh_add(d, *out, nh_mul(d, rate(o, xi[s]), nh_diff(d, L, y->coordinate[s].v)));
             if (y->has_forces) *out = nh_add(d, *out, nh_mul(d, along[s], y->force[s]));
         }

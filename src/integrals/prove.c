@@ -278,9 +278,14 @@ nh_proof nh_prove_claim(const nh_model *o, nh_ex phi, nh_claim claim, const nh_o
     else if (!claim.rounded && length > long_rate && proved_by_symmetry(o, phi, claim, options))
         proof = claim.free ? holding(proof, claim.fixed) : (nh_proof){.proved = true};
     proof = prove_zero(o, n, term, proof, claim, options);
+    bool open = !proof.refuted && claim.free && !claim.rounded;
+    /* a short rate with many roots can be harder than its field */
+    bool general = proof.proved && (proof.all_parameters || claim.fixed);
+    if (open && !general && length <= long_rate && proved_by_symmetry(o, phi, claim, options))
+        proof = holding(proof, claim.fixed);
     /* a field may be known for the values only */
-    bool unproved = !proof.proved && !proof.refuted && claim.free && !claim.rounded && length > long_rate;
-    proof.proved |= unproved && proved_by_symmetry(o, phi, (nh_claim){.fixed = claim.fixed}, options);
+    if (open && !proof.proved && length > long_rate)
+        proof.proved = proved_by_symmetry(o, phi, (nh_claim){.fixed = claim.fixed}, options);
     nh_free(term);
     return proof;
 }

@@ -232,7 +232,6 @@ struct nh_analysis {
     size_t *integral; /* found[integral[i]] */
     nh_completeness completeness[NH_COMPLETENESS_KINDS];
     nh_count_memory *counted; /* while the search goes on */
-    bool postponed;           /* there are new series, which the search left to the construction */
     nh_verdict verdict;
     nh_search search;      /* the verdict cannot be NONE where the search was cut */
     nh_observables tracks; /* their values are in validation->watch, row by row */

@@ -11,6 +11,8 @@
 #include "graph/dag.h"
 #include "graph/print.h"
 #include "search/coefficients.h"
+#include "search/counted.h"
+#include "search/current_list.h"
 #include "search/dependence.h"
 #include "search/described.h"
 #include "search/specials.h"
@@ -58,23 +60,6 @@ static void decide(nh_current_checker *b, nh_candidate *c, nh_current *f)
     nh_coefficients_certify(&r->options, f);
     /* rounding within the terms is no rate: balls have measured it, at other points */
     if (f->heldout > r->options.heldout && f->proof.digits >= open_digits) f->heldout = pow(10, -f->proof.digits);
-}
-
-/* Sorts simple ones first, so that complicated ones are called dependent; equally simple ones in an order that does not
- * depend on rounding. */
-static void sort(nh_analysis *r)
-{
-    nh_dag *d = r->model->dag;
-    for (size_t i = 1; i < r->count; i++) {
-        nh_current f = r->found[i];
-        size_t j = i;
-        bool energy = f.energy;
-        for (; j > 0; j--) {
-            if (r->found[j - 1].energy || (!energy && nh_complexity_order(d, r->found[j - 1].phi, f.phi) <= 0)) break;
-            r->found[j] = r->found[j - 1];
-        }
-        r->found[j] = f;
-    }
 }
 
 /* Is a symbol named by these letters and a number? */
@@ -135,13 +120,8 @@ static void independence(nh_analysis *r, const nh_points *generic)
     nh_independence_test(r->model, generic, r->count, phi, exact, r->options.sure, r->options.doubt, kind, fraction);
     nh_free(exact);
     decide_ranks(r, phi, kind);
-    r->independent = 0;
-    for (size_t k = 0; k < r->count; k++) {
-        r->found[k].independence = kind[k];
-        r->found[k].fraction = fraction[k];
-        r->independent += kind[k] == NH_INDEPENDENT;
-        r->found[k].name = nh_currents_name(r, k + 1);
-    }
+    nh_current_list_rank(r, kind, fraction);
+    for (size_t k = 0; k < r->count; k++) r->found[k].name = nh_currents_name(r, k + 1);
     nh_free(fraction);
     nh_free(kind);
     nh_free(phi);
@@ -238,25 +218,6 @@ void nh_current_checker_free(nh_current_checker *b)
     nh_free(b);
 }
 
-static nh_current *next_found(nh_analysis *r)
-{
-    if (r->count == r->capacity) { /* the arena keeps the old list: there are few */
-        size_t capacity = 2 * r->capacity + 16;
-        nh_current *list = nh_arena_alloc(r->arena, capacity * sizeof *list);
-        if (r->count) memcpy(list, r->found, r->count * sizeof *list);
-        r->found = list;
-        r->capacity = capacity;
-    }
-    memset(&r->found[r->count], 0, sizeof r->found[r->count]);
-    return &r->found[r->count];
-}
-
-void nh_currents_put(nh_current_checker *b, const nh_current *found)
-{
-    *next_found(b->result) = *found;
-    b->result->count++;
-}
-
 nh_independence nh_currents_beside(const nh_analysis *r, const nh_points *points, nh_ex current, bool own, double doubt)
 {
     nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
@@ -290,18 +251,15 @@ static bool add_piece(nh_current_checker *b, const nh_current *f)
 {
     nh_analysis *r = b->result;
     size_t n = r->count + r->pieces;
-    if (r->pieces == NH_MOST_PIECES) return false;
     nh_ex *phi = nh_alloc_array(n + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(n + 1, sizeof *kind);
     for (size_t k = 0; k < n; k++) phi[k] = k < r->count ? r->found[k].phi : r->piece[k - r->count].phi;
     phi[n] = f->phi;
     nh_independence_test(r->model, b->generic, n + 1, phi, NULL, r->options.sure, r->options.doubt, kind, NULL);
-    if (!r->piece) r->piece = nh_arena_alloc(r->arena, NH_MOST_PIECES * sizeof *r->piece);
-    bool independent = kind[n] == NH_INDEPENDENT;
-    if (independent) r->piece[r->pieces++] = *f;
+    bool added = kind[n] == NH_INDEPENDENT && nh_current_list_append_piece(r, f);
     nh_free(kind);
     nh_free(phi);
-    return independent;
+    return added;
 }
 
 /* What is proved comes before pieces that are only certified, and may be functions of it. */
@@ -309,17 +267,20 @@ static void keep_piece(nh_current_checker *b, const nh_current *f)
 {
     nh_analysis *r = b->result;
     nh_current aside[NH_MOST_PIECES];
-    size_t proved = 0, certified = 0;
-    for (size_t k = 0; k < r->pieces; k++)
-        if (r->piece[k].proof.proved || !f->proof.proved) r->piece[proved++] = r->piece[k];
-        else aside[certified++] = r->piece[k];
-    r->pieces = proved;
+    bool stays[NH_MOST_PIECES] = {0};
+    size_t certified = 0;
+    for (size_t k = 0; k < r->pieces; k++) {
+        stays[k] = r->piece[k].proof.proved || !f->proof.proved;
+        if (!stays[k]) aside[certified++] = r->piece[k];
+    }
+    nh_current_list_keep_pieces(r, stays);
     if (add_piece(b, f)) nh_described_fill(b, &r->piece[r->pieces - 1]);
     for (size_t k = 0; k < certified; k++) add_piece(b, &aside[k]);
 }
 
-/* Appends a true current to the list: of currents, or of pieces. */
-static bool keep(nh_current_checker *b, nh_current *f)
+/* Describes a true current that holds everywhere; one that holds in a part of the motions becomes a piece, and false is
+ * returned. */
+static bool holds_everywhere(nh_current_checker *b, nh_current *f)
 {
     f->region = nh_currents_hold(b, f);
     if (f->region && nh_currents_continue(b, f)) f->region = NULL;
@@ -330,14 +291,14 @@ static bool keep(nh_current_checker *b, nh_current *f)
     }
     nh_described_fill(b, f);
     nh_specials_name(b->result, &f->letters);
-    b->result->count++;
     return true;
 }
 
-bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_points *fit, bool certain)
+/* From a candidate to a current: refined, decided, described; false: it is none, or nothing new. */
+static bool check(nh_current_checker *b, nh_candidate *candidate, const nh_points *fit, bool certain, nh_current *f)
 {
     nh_analysis *r = b->result;
-    nh_current *f = next_found(r);
+    *f = (nh_current){0};
     nh_echelon_refine(r->model, fit, candidate, &r->options);
     decide(b, candidate, f);
     b->refuted += nh_coefficients_refuted(f, &r->options);
@@ -346,52 +307,120 @@ bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_po
     /* exact coefficients are not those of the fit, by which it was compared */
     bool again = f->moved || !certain || (f->exact && candidate->count > 1 && candidate->only_new);
     if (!keeps(b, f, certain) || (again && nh_currents_known(b, f->phi, f->proof.proved))) return false;
-    return keep(b, f);
+    return holds_everywhere(b, f);
+}
+
+bool nh_currents_add(nh_current_checker *b, nh_candidate *candidate, const nh_points *fit, bool certain)
+{
+    nh_current f;
+    bool good = check(b, candidate, fit, certain, &f);
+    if (good) nh_current_list_append(b->result, &f);
+    return good;
+}
+
+void nh_currents_add_again(nh_current_checker *b, nh_candidate *candidate, const nh_points *fit, bool certain)
+{
+    nh_current last = nh_current_list_take(b->result, b->result->count - 1);
+    if (!nh_currents_add(b, candidate, fit, certain)) nh_current_list_append(b->result, &last);
+}
+
+/* An integral polynomial in the velocities replaces a current that is not, and is a function of it and the others: it
+ * is regular where these velocities vanish, and its field is shorter. */
+static bool take_place(nh_current_checker *b, const nh_current *f)
+{
+    nh_analysis *r = b->result;
+    for (size_t k = r->count; k-- > 0;) {
+        const nh_current *have = &r->found[k];
+        if (have->series || have->energy || nh_counted_degree_of(r->model, have->phi) < INFINITY) continue;
+        if (have->proof.all_parameters && !f->proof.all_parameters) continue;
+        nh_current old = nh_current_list_take(r, k);
+        if (!nh_currents_known(b, f->phi, f->proof.proved)) {
+            nh_current_list_append(r, f);
+            if (nh_currents_known(b, old.phi, old.proof.proved)) {
+                nh_described_fill(b, &r->found[r->count - 1]);
+                return true;
+            }
+            nh_current_list_take(r, r->count - 1);
+        }
+        nh_current_list_append(r, &old);
+    }
+    return false;
+}
+
+bool nh_currents_add_further(nh_current_checker *b, nh_candidate *candidate, const nh_points *fit, size_t degree)
+{
+    nh_analysis *r = b->result;
+    nh_current f;
+    if (!check(b, candidate, fit, true, &f) || !f.proof.proved || r->furthers == NH_MOST_FURTHER) return false;
+    nh_region open = nh_region_open(r->model, &b->terrain, f.phi, &r->options, r->arena);
+    if (open.count && nh_currents_continue(b, &f))
+        open = nh_region_open(r->model, &b->terrain, f.phi, &r->options, r->arena);
+    f.region = nh_region_text(r->model->dag, &open, r->arena);
+    if (!f.region && take_place(b, &f)) return true;
+    f.independence = NH_DEPENDENT;
+    return nh_current_list_append_further(r, &f, degree);
 }
 
 /* Are the coefficients those of an exact relation with all parameters as symbols? */
 static bool add_related(nh_current_checker *b, nh_ex phi, double quotient)
 {
     nh_analysis *r = b->result;
-    nh_current *f = next_found(r);
-    *f = (nh_current){.phi = phi, .exact = true, .quotient = quotient};
+    nh_current f = {.phi = phi, .exact = true, .quotient = quotient};
     if (nh_currents_known(b, phi, true)) return false;
-    f->heldout = heldout_residual(r->model, b->heldout, phi);
-    f->proof = nh_prove_claim(r->model, phi, (nh_claim){.free = true, .related = true}, &r->options);
-    return keeps(b, f, true) && keep(b, f);
+    f.heldout = heldout_residual(r->model, b->heldout, phi);
+    f.proof = nh_prove_claim(r->model, phi, (nh_claim){.free = true, .related = true}, &r->options);
+    bool good = keeps(b, &f, true) && holds_everywhere(b, &f);
+    if (good) nh_current_list_append(r, &f);
+    return good;
 }
 
 size_t nh_currents_exchange_last(nh_current_checker *b, nh_ex phi, bool *exchanged)
 {
-    nh_analysis *r = b->result;
-    nh_current last = r->found[--r->count];
+    nh_current last = nh_current_list_take(b->result, b->result->count - 1);
     bool added = add_related(b, phi, last.quotient);
     *exchanged = added && nh_currents_known(b, last.phi, last.proof.proved);
-    if (!*exchanged) nh_currents_put(b, &last);
+    if (!*exchanged) nh_current_list_append(b->result, &last);
     return added && !*exchanged;
 }
 
-bool nh_currents_add_series(nh_current_checker *b, nh_ex phi, const nh_series *series, double digits)
+bool nh_currents_add_series(nh_current_checker *b, nh_ex phi, const nh_series *series, double digits,
+                            const char *meaning)
 {
     nh_analysis *r = b->result;
-    nh_current *f = next_found(r);
     bool several = series->variables > 1;
+    nh_current f = {.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = !several, .refined = digits};
     if (nh_declared_unspecified(r->model->dag)) return false; /* of the stand-in */
-    *f = (nh_current){.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = !several, .refined = digits};
-    if (nh_currents_known(b, f->phi, f->proof.proved)) return false;
-    f->heldout = heldout_residual(r->model, b->heldout, phi);
+    if (nh_currents_known(b, f.phi, f.proof.proved)) return false;
+    f.heldout = heldout_residual(r->model, b->heldout, phi);
     if (several) {
-        f->proof = (nh_proof){.digits = digits};
-        f->printed_digits = digits;
-        if (f->heldout > r->options.heldout) return false;
+        f.proof = (nh_proof){.digits = digits};
+        f.printed_digits = digits;
+        if (f.heldout > r->options.heldout) return false;
     } else {
-        f->proof = nh_prove_current(r->model, phi, false, &r->options);
-        nh_coefficients_certify(&r->options, f);
-        if (!keeps(b, f, true)) return false;
+        f.proof = nh_prove_current(r->model, phi, false, &r->options);
+        nh_coefficients_certify(&r->options, &f);
+        if (!keeps(b, &f, true)) return false;
     }
-    nh_described_fill(b, f);
-    r->count++;
+    nh_described_fill(b, &f);
+    if (meaning) f.meaning = meaning;
+    nh_current_list_append(r, &f);
     return true;
+}
+
+static bool is_certified_only(const nh_current *f) { return !f->proof.proved && !f->series; }
+
+size_t nh_currents_set_aside(nh_current_checker *b, nh_current **aside)
+{
+    return nh_current_list_take_all(b->result, is_certified_only, aside);
+}
+
+void nh_currents_take_back(nh_current_checker *b, size_t n, const nh_current *aside)
+{
+    for (size_t k = 0; k < n; k++) {
+        const nh_current *f = &aside[k];
+        if (f->independence == NH_INDEPENDENT && nh_currents_known(b, f->phi, f->proof.proved)) continue;
+        nh_current_list_append(b->result, f);
+    }
 }
 
 /* The energy is expected to be conserved: where it is not, a warning says so, with its rate when that is short. */
@@ -426,24 +455,19 @@ static void forget_known_almosts(nh_current_checker *b)
 static void name_pieces(nh_current_checker *b)
 {
     nh_analysis *r = b->result;
-    size_t kept = 0;
-    for (size_t k = 0; k < r->pieces; k++) {
-        if (nh_currents_known(b, r->piece[k].phi, r->piece[k].proof.proved)) continue;
-        r->piece[kept] = r->piece[k];
-        r->piece[kept].name = nh_currents_name(r, r->count + kept + 1);
-        kept++;
-    }
-    r->pieces = kept;
+    bool keep[NH_MOST_PIECES] = {0};
+    for (size_t k = 0; k < r->pieces; k++) keep[k] = !nh_currents_known(b, r->piece[k].phi, r->piece[k].proof.proved);
+    nh_current_list_keep_pieces(r, keep);
+    for (size_t k = 0; k < r->pieces; k++) r->piece[k].name = nh_currents_name(r, r->count + k + 1);
 }
+
+static bool is_known_series(const nh_current *f) { return f->series && f->independence != NH_INDEPENDENT; }
 
 /* Removes series that are functions of closed forms found later. */
 static bool forget_known_series(nh_analysis *r)
 {
-    size_t kept = 0, before = r->count;
-    for (size_t k = 0; k < before; k++)
-        if (!r->found[k].series || r->found[k].independence == NH_INDEPENDENT) r->found[kept++] = r->found[k];
-    r->count = kept;
-    return kept < before;
+    nh_current *forgotten;
+    return nh_current_list_take_all(r, is_known_series, &forgotten) > 0;
 }
 
 void nh_currents_recount(nh_current_checker *b)
@@ -451,7 +475,7 @@ void nh_currents_recount(nh_current_checker *b)
     bool series = false;
     for (size_t k = 0; k < b->result->count; k++) series |= b->result->found[k].series != NULL;
     if (!series) return;
-    sort(b->result);
+    nh_current_list_sort(b->result);
     independence(b->result, b->generic);
     forget_known_series(b->result);
 }
@@ -460,7 +484,7 @@ void nh_currents_finish(nh_current_checker *b)
 {
     name_pieces(b);
     forget_known_almosts(b);
-    sort(b->result);
+    nh_current_list_sort(b->result);
     independence(b->result, b->generic);
     if (forget_known_series(b->result)) independence(b->result, b->generic);
     nh_dependence_on_known(b->result);

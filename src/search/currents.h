@@ -20,8 +20,16 @@ bool nh_currents_add(nh_current_checker *bench, nh_candidate *candidate, const n
  * currents.  Returns how many more currents there are. */
 size_t nh_currents_exchange_last(nh_current_checker *bench, nh_ex phi, bool *exchanged);
 
-/* Appends a current that was checked before. */
-void nh_currents_put(nh_current_checker *bench, const nh_current *found);
+/* The last current is added again, as this candidate; where that fails it stays. */
+void nh_currents_add_again(nh_current_checker *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
+/* The same as nh_currents_add for a function of the currents found, of this degree in the velocities: it goes to
+ * result->further, or takes the place of a current that is not polynomial in the velocities. */
+bool nh_currents_add_further(nh_current_checker *bench, nh_candidate *candidate, const nh_points *fit, size_t degree);
+
+/* Currents that are only certified leave the list: proved ones may take their place.  Returns how many, in the arena;
+ * then those are put back that do not depend on currents found since. */
+size_t nh_currents_set_aside(nh_current_checker *bench, nh_current **aside);
+void nh_currents_take_back(nh_current_checker *bench, size_t n, const nh_current *aside);
 
 /* "Phi3"; "Psi3" where the system has a symbol such as Phi1, and so on.  Belongs to the arena of the analysis. */
 const char *nh_currents_name(nh_analysis *analysis, size_t number);
@@ -45,8 +53,9 @@ const char *nh_currents_hold(nh_current_checker *bench, nh_current *found);
 bool nh_currents_continue(nh_current_checker *bench, nh_current *found);
 
 /* The same as nh_currents_add for a series, whose certificate was computed with it: for series in several variables
- * their bound is the certificate.  Nothing is added when it depends on earlier currents. */
-bool nh_currents_add_series(nh_current_checker *bench, nh_ex phi, const nh_series *series, double digits);
+ * their bound is the certificate.  Nothing is added when it depends on earlier currents.  meaning: in words, or NULL. */
+bool nh_currents_add_series(nh_current_checker *bench, nh_ex phi, const nh_series *series, double digits,
+                            const char *meaning);
 
 /* Call after the last candidate of a list: is a combination of the nearly conserved ones a current?  Returns how many
  * were added. */

@@ -1,5 +1,4 @@
-/* A stage of the search, for a kinetic energy that depends on the position: fields that are linear in the coordinates,
- * and centres of mass.
+/* A stage of the search: fields that are linear in the coordinates, and centres of mass.
  *
  *     P = (B^s_r q^r + b^s) p_s                  of a turn of all coordinates at once: of a body that floats freely
  *     the same with words of turns in three angles
@@ -120,24 +119,65 @@ static void turns_in_space(nh_stage_solver *x, nh_family_list *families, size_t 
     nh_free(angle);
 }
 
+/* F - t P + c t^2/2 of P = g_s v^s + c t, a current with constant g and c, where F = g_s q^s. */
+static void boost(nh_stage_solver *x, nh_ex P)
+{
+    const nh_model *o = x->r->model;
+    nh_dag *d = o->dag;
+    nh_ex t = o->system->t, F = nh_int(d, 0), rest = P, c = nh_simplify_short(d, nh_diff(d, P, t), 0);
+    bool linear = nh_model_is_constant(o, c);
+    for (size_t s = 0; s < o->m && linear; s++) {
+        const nh_coordinate *q = &o->system->coordinate[s];
+        nh_ex g = nh_simplify_short(d, nh_diff(d, P, q->v), 0);
+        linear = nh_model_is_constant(o, g);
+        F = nh_add(d, F, nh_mul(d, g, q->q));
+        rest = nh_sub(d, rest, nh_mul(d, g, q->v));
+    }
+    if (!linear || nh_is_zero(d, F) || !nh_is_zero(d, nh_sub(d, rest, nh_mul(d, c, t)))) return;
+    F = nh_sub(d, F, nh_mul(d, t, P));
+    F = nh_add(d, F, nh_product(d, 3, (nh_ex[]){nh_ratio(d, 1, 2), c, nh_powi(d, t, 2)}));
+    nh_stage_solver_certify(x, nh_simplify_short(d, F, 0), "a centre of mass");
+}
+
+/* Of a constant kinetic energy: the sums of momenta that a constant force changes, and their centres of mass.  They
+ * come first: turns of the whole about its centre of mass are products of them. */
+static void boosts(nh_stage_solver *x, nh_family_list *families)
+{
+    const nh_analysis *r = x->r;
+    const nh_model *o = r->model;
+    nh_expr_set linear_in_t = {0};
+    nh_expr_set_put_all(&linear_in_t, o->m, o->p);
+    nh_expr_set_put(&linear_in_t, o->system->t);
+    nh_family momenta = nh_family_list_terms(families, &linear_in_t);
+    nh_stage_solver_stage(x, "canonical momenta", 1, &momenta);
+    for (size_t k = 0, count = r->count; k < count && !nh_stage_solver_done(x); k++)
+        if (r->found[k].proof.proved) boost(x, r->found[k].phi);
+    /* one that is a function of the energy and the others */
+    for (size_t s = 0; s < o->m && !nh_stage_solver_done(x); s++)
+        if (nh_is_zero(o->dag, nh_simplify_short(o->dag, nh_model_gamma(o, o->p[s]), 0))) boost(x, o->p[s]);
+}
+
 void nh_linear_fields_search(nh_stage_solver *x)
 {
     nh_analysis *r = x->r;
     const nh_model *o = r->model;
     bool constant = true;
+    if (o->k || o->chart->quasi) return;
     for (size_t i = 0; i < o->n * o->n; i++) constant = constant && is_constant(o, o->M[i]);
-    if (o->k || o->chart->quasi || constant) return;
     nh_centre_of_mass *centre = nh_arena_alloc(r->arena, (o->m + 1) * sizeof *centre);
     nh_ex *force = nh_arena_alloc(r->arena, (o->m + 1) * sizeof *force);
     size_t centres = pulled_centres(o, (size_t)r->options.proof_terms, centre, force);
     nh_family_list families = {r->arena, o, &x->words, NULL, 0};
     nh_expr_set momenta = {0}, positions = nh_expr_set_positions(&families, true, false),
-                about = turns_about_centres(o, centres, centre, force);
+                others = turns_about_centres(o, centres, centre, force);
     nh_expr_set_put_all(&momenta, o->m, o->p);
     nh_family factor[] = {nh_family_list_terms(&families, &momenta), nh_family_list_terms(&families, &positions)};
-    nh_family all[] = {nh_family_list_product(&families, 2, factor), nh_family_list_terms(&families, &about)};
-    size_t n = about.n ? 2 : 1;
+    nh_family all[] = {nh_family_list_product(&families, 2, factor), nh_family_list_terms(&families, &others)};
+    size_t n = others.n ? 2 : 1;
+    if (constant) boosts(x, &families);
+    x->wide = true; /* of many coordinates these are few columns */
     nh_stage_solver_stage(x, "canonical momenta times 1 and positions", n, all);
-    turns_in_space(x, &families, n, all);
+    x->wide = false;
+    if (!constant) turns_in_space(x, &families, n, all);
     centres_of_mass(x, centres, centre, force);
 }

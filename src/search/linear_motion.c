@@ -376,7 +376,7 @@ static void solve_block(linear *l)
     if (null) polynomials(l, null);
     nh_complex_pair pair;
     if (good && !null && nh_linear_motion_complex_pair(l, &pair)) nh_complex_pair_search(l->x, &pair);
-    l->forms = n == l->size ? l->x->forms : 0;
+    l->forms = 0;
     if (good && !formulas) forms_if_unnamed(l, re, im);
     for (size_t k = 0; k < n && good && !nh_stage_solver_done(l->x); k++) {
         bool old;
@@ -421,21 +421,6 @@ static void take_block(linear *l, size_t first)
     l->count = 0;
     for (size_t i = 0; i < l->size; i++)
         if (root(l, i) == first) l->of[l->count++] = i;
-}
-
-void nh_linear_motion_forms(nh_stage_solver *x)
-{
-    bool is;
-    linear l = linear_of(x, &is);
-    if (is) find_blocks(&l);
-    if (is) take_block(&l, 0);
-    if (is && l.count == l.size) {
-        double *re = nh_alloc_array(2 * l.size + 1, sizeof *re), *im = re + l.size, largest;
-        if (rates(&l, re, im, &largest)) forms_if_unnamed(&l, re, im);
-        nh_free(re);
-        x->forms = l.forms;
-    }
-    nh_linear_motion_clear(&l);
 }
 
 void nh_linear_motion_solve(linear *l)

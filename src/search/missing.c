@@ -10,7 +10,6 @@
 #include "search/currents.h"
 #include "search/missing_internal.h"
 #include "search/relations.h"
-#include "search/series_several.h"
 
 typedef nh_missing_search search;
 
@@ -82,39 +81,6 @@ static void check(nh_analysis *r)
 
 /* ---- integrals that are missing ---- */
 
-/* Those that are not proved, or else the series. */
-static void set_aside(search *s, bool series)
-{
-    nh_analysis *r = s->solver.r;
-    size_t kept = 0;
-    nh_current *all = nh_arena_alloc(r->arena, (s->aside + r->count + 1) * sizeof *all);
-    if (s->aside) memcpy(all, s->set_aside, s->aside * sizeof *all);
-    s->set_aside = all;
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
-        if (series ? !f->series : f->proof.proved || f->series) {
-            r->found[kept++] = *f;
-            continue;
-        }
-        r->independent -= f->independence == NH_INDEPENDENT;
-        s->set_aside[s->aside++] = *f;
-    }
-    r->count = kept;
-}
-
-/* Puts back those that do not depend on currents proved in the meantime, from the given one on. */
-static void take_back(search *s, size_t first)
-{
-    nh_analysis *r = s->solver.r;
-    for (size_t k = first; k < s->aside; k++) {
-        nh_current *f = &s->set_aside[k];
-        if (f->independence == NH_INDEPENDENT && nh_currents_known(s->solver.bench, f->phi, f->proof.proved)) continue;
-        r->independent += f->independence == NH_INDEPENDENT;
-        nh_currents_put(s->solver.bench, f);
-    }
-    s->aside = first;
-}
-
 static bool is_timeless(const nh_analysis *r) { return r->completeness[NH_COMPLETE_IN_COORDINATES].counted; }
 
 /* Without time in the coefficients, which in a system without time gives functions of these only. */
@@ -137,114 +103,82 @@ static bool is_missing(const nh_analysis *r)
     return some;
 }
 
-/* Where no closed form of them was found; that this was tried costs them nothing of the work. */
-static void postponed_series(search *s)
-{
-    if (nh_budget_spent()) nh_budget_begin(s->solver.r->options.work);
-    s->solver.words = nh_dictionary_of(s->solver.r->model);
-    s->solver.counted.on = true;
-    nh_stage_solver_series_in_each(&s->solver);
-    s->solver.counted.on = false;
-}
-
-/* What has no closed form: of the kind that comes first, unless only the other may have more. */
-static void in_several(search *s)
-{
-    nh_analysis *r = s->solver.r;
-    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    size_t before = r->count;
-    if (c->counted && c->missing_at == 1 && c->missing) {
-        s->solver.words = nh_dictionary_of(r->model);
-        nh_stage_solver_series_of_positions(&s->solver);
-    }
-    bool found = r->count > before;
-    for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found && !nh_stage_solver_done(&s->solver); i++) {
-        c = &r->completeness[i];
-        if (!nh_missing_adds_nothing(r, c)) found = nh_series_in_several(&s->solver, c);
-    }
-}
-
-/* A series along one coordinate, made or postponed, may be an integral that has a name, times integrals that were
-   found in the meantime. */
-static bool integrate_series(search *s)
-{
-    nh_analysis *r = s->solver.r;
-    size_t series = 0, before = s->aside;
-    for (size_t k = 0; k < r->count; k++) series += r->found[k].series && r->found[k].independence == NH_INDEPENDENT;
-    if (!(series || r->postponed) || !r->furthers || nh_late()) return false;
-    set_aside(s, true);
-    bool found = nh_primitives_search(&s->solver, true, 1);
-    take_back(s, before);
-    return found;
-}
-
 /* Counts a kind anew where currents were found since.  A system that depends on time has only one. */
 static void refresh(search *s, int kind)
 {
-    nh_analysis *r = s->solver.r;
+    nh_analysis *r = s->solver->r;
     bool old = s->stale >> kind & 1;
     s->stale &= ~(1u << kind);
     if (old && r->completeness[kind].counted && !nh_late()) count(r, 1u << kind, 1);
 }
 
-static bool look_further(search *s)
+/* What is tried, in this order, from the beginning again whenever something was found. */
+typedef struct {
+    int kind;     /* with the coefficients of this count, */
+    bool further; /* integrals that are functions of the currents found, but no polynomials of them */
+} attempt;
+
+static const attempt attempts[] = {
+    {NH_COMPLETE_IN_COORDINATES, false},
+    /* functions of the currents are few, and what has time in it may be a product of them and of waves */
+    {NH_COMPLETE_IN_COORDINATES, true},
+    {NH_COMPLETE_IN_TIME, false},
+    {NH_COMPLETE_IN_TIME, true}, /* where there is no count without time */
+};
+
+static bool try_attempt(search *s, const attempt *a)
 {
-    nh_analysis *r = s->solver.r;
-    return lacks_further(r) && nh_missing_construct(s, simplest_kind(r), true);
+    nh_analysis *r = s->solver->r;
+    const nh_completeness *c = &r->completeness[a->kind];
+    refresh(s, a->kind);
+    if (a->further && (c != simplest_kind(r) || !lacks_further(r))) return false;
+    return nh_missing_construct(s, c, a->further);
 }
 
-static void look(nh_analysis *r)
+static void construct(search *s)
 {
-    search s = {0};
-    nh_error ignored;
-    nh_error_clear(&ignored);
-    if (!nh_stage_solver_begin(&s.solver, r, &ignored)) return;
-    nh_progress("integrals that the count misses", -1);
-    nh_budget_begin(r->options.work);
-    s.solver.bench->constructs = true;
-    set_aside(&s, false);
-    s.cyclic = nh_jet_equations_cyclic_rounds(r->model);
-    for (bool found = true; found && !nh_late();) {
-        refresh(&s, NH_COMPLETE_IN_COORDINATES);
-        found = nh_missing_construct(&s, &r->completeness[NH_COMPLETE_IN_COORDINATES], false);
-        /* Functions of the currents are few, and what has time in it may be a product of them and of waves. */
-        if (!found && is_timeless(r)) found = look_further(&s);
-        if (!found) refresh(&s, NH_COMPLETE_IN_TIME);
-        if (!found) found = nh_missing_construct(&s, &r->completeness[NH_COMPLETE_IN_TIME], false);
-        if (!found && !is_timeless(r)) found = look_further(&s);
-        if (found) s.stale = ~0u;
+    enum { count = sizeof attempts / sizeof *attempts };
+    nh_analysis *r = s->solver->r;
+    s->cyclic = nh_jet_equations_cyclic_rounds(r->model);
+    for (size_t i = 0; i < count && !nh_late();) {
+        bool found = try_attempt(s, &attempts[i]);
+        i = found ? 0 : i + 1;
+        if (found) s->stale = ~0u;
         if (found && r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
     }
-    for (int kind = 0; kind < NH_COMPLETENESS_KINDS; kind++) refresh(&s, kind);
-    if (integrate_series(&s) && !nh_late()) {
-        if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-        count(r, 0, 1);
-    }
-    size_t before = r->independent;
-    if (r->postponed && !nh_late()) postponed_series(&s);
-    in_several(&s);
-    if (r->independent > before && r->independent >= r->local_maximum) { /* nothing is missing then */
-        r->search = NH_SEARCH_COMPLETE;
-        if (!nh_late()) count(r, 0, 1);
-    }
-    take_back(&s, 0);
-    nh_budget_begin(INFINITY);
-    nh_currents_finish(s.solver.bench);
+}
+
+void nh_missing_find(nh_stage_solver *x)
+{
+    nh_analysis *r = x->r;
+    search s = {.solver = x};
+    nh_current *aside;
+    if (r->options.construct <= 0 || nh_late()) return;
+    r->search = r->independent >= r->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
+    count(r, 0, 1);
+    if ((!is_missing(r) && !lacks_further(r)) || nh_late()) return;
+    nh_progress("integrals that the count misses", -1);
+    x->bench->constructs = true;
+    size_t n = nh_currents_set_aside(x->bench, &aside);
+    construct(&s);
+    nh_currents_take_back(x->bench, n, aside);
+    x->bench->constructs = x->wide = false;
+}
+
+bool nh_missing_primitives(nh_stage_solver *x) { return x->r->furthers && nh_primitives_search(x, true, 1); }
+
+void nh_missing_name_further(nh_analysis *r)
+{
     for (size_t k = 0; k < r->furthers; k++)
         r->further[k].current.name = nh_currents_name(r, r->count + r->pieces + k + 1);
     if (r->furthers) nh_relations_find(r);
-    nh_stage_solver_end(&s.solver);
-    bool all = r->independent >= r->local_maximum;
-    if (all || r->search == NH_SEARCH_COMPLETE) r->search = all ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
 }
 
-void nh_missing_count(nh_analysis *r, bool construct)
+void nh_missing_count(nh_analysis *r, bool searched)
 {
     if (!r->counted) r->counted = nh_count_memory_create();
-    count(r, 0, construct ? 1 : 2); /* with an ansatz the report gives the number of integrals of degree two as well */
-    bool wanted = is_missing(r) || lacks_further(r) || r->postponed;
-    if (construct && r->options.construct > 0 && wanted && !nh_late()) look(r);
-    if (construct || r->options.degree) count_the_rest(r);
+    count(r, 0, searched ? 1 : 2); /* with an ansatz the report gives the number of integrals of degree two as well */
+    if (searched || r->options.degree) count_the_rest(r);
     if (!nh_late()) generalize(r);
     nh_count_memory_free(r->counted);
     r->counted = NULL;

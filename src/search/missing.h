@@ -7,10 +7,20 @@
 #ifndef NH_MISSING_H
 #define NH_MISSING_H
 
-#include "search/currents.h"
+#include "search/stage_solver.h"
 
-/* Fill result->completeness; with `construct`, look for what is missing, and count again.  Without it no degrees are
- * counted beyond the first one that misses some, unless the user asks for one. */
-void nh_missing_count(nh_analysis *result, bool construct);
+/* Counts the integrals, and constructs those that are missing.  result->search must not be known before. */
+void nh_missing_find(nh_stage_solver *solver);
+
+/* An antiderivative along a coordinate times integrals that the construction found as functions of the currents: what
+ * would be a series has a name then.  Has it found something? */
+bool nh_missing_primitives(nh_stage_solver *solver);
+
+/* Names the further integrals, after the currents have their names, and finds the polynomial relations among all. */
+void nh_missing_name_further(nh_analysis *result);
+
+/* Fills result->completeness.  Without a search no degrees are counted beyond the first one that misses some, unless
+ * the user asks for one. */
+void nh_missing_count(nh_analysis *result, bool searched);
 
 #endif

@@ -12,7 +12,6 @@
 #include "integrals/echelon.h"
 #include "search/counted.h"
 #include "search/currents.h"
-#include "search/described.h"
 #include "search/missing_internal.h"
 #include "search/naming.h"
 
@@ -20,64 +19,20 @@ typedef nh_missing_search search;
 typedef nh_missing_manner manner;
 typedef nh_missing_barren barren;
 
-/* An integral polynomial in the velocities replaces a current that is not, and is a function of it and the others: it
- * is regular where these velocities vanish, and its field is shorter. */
-static bool take_place(search *s, const nh_current *f)
-{
-    nh_analysis *r = s->solver.r;
-    for (size_t k = r->count; k-- > 0;) {
-        nh_current old = r->found[k];
-        if (old.series || old.energy || nh_counted_degree_of(r->model, old.phi) < INFINITY) continue;
-        if (old.proof.all_parameters && !f->proof.all_parameters) continue;
-        r->found[k] = r->found[--r->count];
-        bool takes = !nh_currents_known(s->solver.bench, f->phi, f->proof.proved);
-        if (takes) nh_currents_put(s->solver.bench, f);
-        takes = takes && nh_currents_known(s->solver.bench, old.phi, old.proof.proved);
-        if (takes) {
-            nh_described_fill(s->solver.bench, &r->found[r->count - 1]);
-            return true;
-        }
-        r->count -= r->count > 0 && r->found[r->count - 1].phi == f->phi;
-        nh_currents_put(s->solver.bench, &old);
-    }
-    return false;
-}
-
-/* A function of the currents found: it is checked as any other, and put into a list of its own. */
-static bool keep_further(search *s, size_t degree, nh_candidate *candidate, const nh_points *fit)
-{
-    nh_analysis *r = s->solver.r;
-    bool conserved = nh_currents_add(s->solver.bench, candidate, fit, true);
-    if (!conserved) return false;
-    nh_current *f = &r->found[--r->count];
-    if (!f->proof.proved || r->furthers == NH_MOST_FURTHER) return false;
-    if (!r->further) r->further = nh_arena_alloc(r->arena, NH_MOST_FURTHER * sizeof *r->further);
-    f->independence = NH_DEPENDENT;
-    nh_region open = nh_region_open(r->model, &s->solver.bench->terrain, f->phi, &r->options, r->arena);
-    if (open.count && nh_currents_continue(s->solver.bench, f))
-        open = nh_region_open(r->model, &s->solver.bench->terrain, f->phi, &r->options, r->arena);
-    f->region = nh_region_text(r->model->dag, &open, r->arena);
-    nh_current found = *f; /* at the place of the next current in the list */
-    if (!f->region && take_place(s, &found)) return true;
-    *f = found;
-    r->further[r->furthers++] = (nh_further_integral){*f, degree};
-    return true;
-}
-
 /* Chooses the null vector with the most complex term: the simpler terms are those of known integrals. */
 static bool lift_further(search *s, size_t degree, const nh_family *all)
 {
-    nh_analysis *r = s->solver.r;
+    nh_analysis *r = s->solver->r;
     bool found = false;
-    nh_solved x = nh_stage_solver_solve(&s->solver, 1, all);
+    nh_solved x = nh_stage_solver_solve(s->solver, 1, all);
     if (x.nullspace && x.nullspace->dimension) {
         nh_candidates *list = nh_echelon(r->model, x.fit, x.ansatz, x.nullspace, x.nullspace->dimension, &r->options);
         for (size_t k = 0; k < list->count && !found; k++) {
             bool leads = false;
             for (size_t j = 0; j < list->candidate[k].count; j++) leads |= list->candidate[k].term[j] == all->term[0];
-            found = leads && keep_further(s, degree, &list->candidate[k], x.fit);
+            found = leads && nh_currents_add_further(s->solver->bench, &list->candidate[k], x.fit, degree);
         }
-        s->solver.bench->nears = 0; /* they are of the list */
+        s->solver->bench->nears = 0; /* they are of the list */
         nh_candidates_free(list);
     }
     nh_solved_clear(&x);
@@ -122,15 +77,15 @@ static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
 /* By linear equations modulo primes: exactly, and for all parameters where they occur as polynomials. */
 static nh_lift_result lift_exactly(search *s, bool time, size_t terms, const nh_ex *term)
 {
-    nh_lift_result exact = nh_lift(s->solver.r->model, time, terms, term, s->work);
+    nh_lift_result exact = nh_lift(s->solver->r->model, time, terms, term, s->work);
     s->work -= exact.work;
     return exact;
 }
 
 static bool keep_lifted(search *s, const nh_lift_result *exact, size_t terms, const char *name)
 {
-    nh_analysis *r = s->solver.r;
-    bool found = exact->integral && nh_stage_solver_certify(&s->solver, exact->integral, name);
+    nh_analysis *r = s->solver->r;
+    bool found = exact->integral && nh_stage_solver_certify(s->solver, exact->integral, name);
     if (found) r->stage[r->stages - 1].columns = terms;
     return found;
 }
@@ -140,10 +95,10 @@ static bool keep_lifted(search *s, const nh_lift_result *exact, size_t terms, co
 static bool lift_by_doubles(search *s, size_t degree, const nh_family *all, bool further, const char *name)
 {
     enum { most_terms = 300 };
-    size_t before = s->solver.r->count;
+    size_t before = s->solver->r->count;
     if (all->terms > most_terms) return false;
-    nh_stage_solver_stage(&s->solver, name, 1, all);
-    return s->solver.r->count > before || (further && lift_further(s, degree, all));
+    nh_stage_solver_stage(s->solver, name, 1, all);
+    return s->solver->r->count > before || (further && lift_further(s, degree, all));
 }
 
 /* FOUND, a function of the currents (which may be found again with every price of the words), or neither: simpler words
@@ -155,7 +110,7 @@ typedef enum { LIFT_FOUND, LIFT_KNOWN, LIFT_FAILED } lifted;
 static lifted lift(search *s, size_t degree, bool time, const nh_constructed *c, bool further)
 {
     enum { a_few = 20 };
-    nh_analysis *r = s->solver.r;
+    nh_analysis *r = s->solver->r;
     nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
     nh_ex constant[most_constants];
     size_t constants = constants_of_leaf(r, constant), terms = 0, once = 0;
@@ -168,12 +123,12 @@ static lifted lift(search *s, size_t degree, bool time, const nh_constructed *c,
             terms++;
         }
     *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
-    s->solver.wide = true;
+    s->solver->wide = true;
     const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
     nh_lift_result exact = further ? (nh_lift_result){0} : lift_exactly(s, time, once, first_once);
     bool first = exact.general || once > a_few;
     if (first && keep_lifted(s, &exact, once, name)) return LIFT_FOUND;
-    if (exact.integral && nh_currents_known(s->solver.bench, exact.integral, true)) return LIFT_KNOWN;
+    if (exact.integral && nh_currents_known(s->solver->bench, exact.integral, true)) return LIFT_KNOWN;
     if (lift_by_doubles(s, degree, all, further, name)) return LIFT_FOUND;
     return !first && keep_lifted(s, &exact, once, name) ? LIFT_FOUND : LIFT_FAILED;
 }
@@ -192,15 +147,15 @@ static const nh_missing_refused *refused_before(const search *s, const nh_constr
 static void refuse(search *s, const nh_constructed *c, bool further, bool known)
 {
     if (s->refusals == NH_MISSING_MOST_REFUSED) return;
-    nh_ex *term = nh_arena_alloc(s->solver.r->arena, c->terms * sizeof *term);
+    nh_ex *term = nh_arena_alloc(s->solver->r->arena, c->terms * sizeof *term);
     memcpy(term, c->term, c->terms * sizeof *term);
     s->refused[s->refusals++] = (nh_missing_refused){c->terms, term, further, known};
 }
 
 static bool is_over(const search *s, bool further)
 {
-    return further ? nh_budget_spent() || nh_late() || s->solver.r->furthers == NH_MOST_FURTHER
-                   : nh_stage_solver_done(&s->solver);
+    return further ? nh_budget_spent() || nh_late() || s->solver->r->furthers == NH_MOST_FURTHER
+                   : nh_stage_solver_done(s->solver);
 }
 
 /* The same question as before, as far as the work goes; NULL: it was not asked, or there was something new. */
@@ -229,7 +184,7 @@ static void take(search *s, const barren *b, bool *more)
 /* Tries the words up to one price. */
 static bool construct_at(search *s, const nh_completeness *c, manner how, double price, bool *more)
 {
-    nh_analysis *r = s->solver.r;
+    nh_analysis *r = s->solver->r;
     bool further = how.further;
     size_t degree = further ? c->incomplete_at : c->missing_at;
     barren now = {.how = {how.further, how.secular, how.weights, how.shape, NULL},
@@ -332,13 +287,13 @@ bool nh_missing_construct(search *s, const nh_completeness *c, bool further)
     /* parts of the work: for rare functions, and for integrals that the currents found determine */
     static const double part = 0.25, further_part = 0.08;
     double dearest = c->count.time ? 6 : 16, dearest_secular = 6,
-           work = s->solver.r->options.construct * (further ? further_part : 1);
+           work = s->solver->r->options.construct * (further ? further_part : 1);
     bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) &&
-                              !nh_missing_adds_nothing(s->solver.r, c));
+                              !nh_missing_adds_nothing(s->solver->r, c));
     if (!wanted) return false;
     size_t degree = further ? c->incomplete_at : c->missing_at;
     nh_ex atom[NH_NAMING_ATOMS];
-    const nh_model *o = s->solver.r->model;
+    const nh_model *o = s->solver->r->model;
     nh_construct_rates rates =
         nh_construct_rates_of(o, degree, c->count.time, nh_naming_atoms(o, atom), atom, part * work);
     manner any = {.further = further, .rates = &rates}, secular = any;
@@ -348,12 +303,12 @@ bool nh_missing_construct(search *s, const nh_completeness *c, bool further)
     only.only = true;
     manner by_rates = {.further = further, .rates = &only};
     bool before = c->count.time && !further;
-    if (before && nh_primitives_search(&s->solver, true, degree)) return true;
+    if (before && nh_primitives_search(s->solver, true, degree)) return true;
     if (rates.count && construct_up_to(s, c, by_rates, dearest, further ? work : part * work)) return true;
     s->covered = s->recognised = 0;
     if (construct_in_shapes(s, c, any, dearest, work, &secular.shape)) return true;
     s->covered = 0;
     bool others = s->recognised < c->count.row[degree - 1].bound;
-    return (!further && !before && nh_primitives_search(&s->solver, c->count.time, c->missing_at)) ||
+    return (!further && !before && nh_primitives_search(s->solver, c->count.time, c->missing_at)) ||
            (others && !c->count.time && construct_up_to(s, c, secular, dearest_secular, part * work));
 }

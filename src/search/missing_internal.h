@@ -33,7 +33,7 @@ typedef struct {
 } nh_missing_refused;
 
 typedef struct {
-    nh_stage_solver solver;
+    nh_stage_solver *solver;
     size_t barrens;
     nh_missing_barren barren[NH_MISSING_MOST_BARREN];
     size_t refusals;
@@ -44,8 +44,6 @@ typedef struct {
     size_t solutions;  /* the most that series had for the coordinates at hand */
     size_t recognised; /* the most of which all were recognised */
     double covered;    /* up to this price words were tried for these coordinates */
-    size_t aside;      /* currents that are only certified */
-    nh_current *set_aside;
 } nh_missing_search;
 
 /* How many currents may be proved: those in closed form, with room for more. */

@@ -108,11 +108,9 @@ static size_t keep(problem *p, const nh_series_space *space)
                               .coefficient = nh_arena_alloc(r->arena, n * sizeof(double)),
                               .stride = space->degree + 1,
                               .equation = p->equation};
-        if (!nh_currents_add_series(p->x->bench, expression_of(p, space, k, series), series, space->digits[k]))
-            continue;
-        if (p->variable == r->system->t) r->found[r->count - 1].meaning = meaning_of(p, space, k);
-        r->independent++;
-        added++;
+        const char *meaning = p->variable == r->system->t ? meaning_of(p, space, k) : NULL;
+        added +=
+            nh_currents_add_series(p->x->bench, expression_of(p, space, k, series), series, space->digits[k], meaning);
     }
     return added;
 }
@@ -168,25 +166,20 @@ static void named(problem *p, const char *what)
     for (size_t k = 0; k < n && !nh_stage_solver_done(p->x); k++) nh_stage_solver_certify(p->x, phi[k], name);
 }
 
-static void search(problem *p, const char *what)
+static void series(problem *p, const char *what)
 {
     nh_analysis *r = p->x->r;
     char name[120];
     double start = nh_clock();
     nh_series_space space;
     nh_family words = {.kind = NH_TERMS, .terms = p->words, .term = p->word};
-    if (p->full || nh_stage_solver_done(p->x)) return;
+    if (!p->x->series || p->full || nh_stage_solver_done(p->x)) return;
     if (nh_declared_unspecified(r->model->dag)) return; /* a series would be that of its stand-in */
     if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == r->system->t)) return;
     snprintf(name, sizeof name, "%s with coefficients that are series in %s", what,
              nh_name_of(r->model->dag, p->variable));
     nh_series_search *s = nh_series_open(r->model, p->variable, p->words, p->word, &r->options);
     bool news = nh_series_count(s) && fresh(p, s);
-    if (news && p->x->postpones) {
-        r->postponed = true;
-        nh_series_close(s);
-        return;
-    }
     nh_stage_record *note = nh_stage_solver_note(p->x, name);
     note->columns = nh_series_words(s);
     note->sectors = 1;
@@ -239,13 +232,13 @@ static void linear_in(nh_stage_solver *x, nh_ex q)
     /* with friction, currents have terms that depend on position alone */
     if (o->system->has_forces) put(&p, nh_int(o->dag, 1));
     named(&p, "velocities");
-    search(&p, "velocities");
+    series(&p, "velocities");
 }
 
 /* Functions of one coordinate q make sense where the equations of motion depend on no other: then 1, w and w w are
  * closed under Gamma.  A power series continued past a kink or a
  * jump of the equations of motion is no current behind it. */
-void nh_series_stages(nh_stage_solver *x)
+static void in_one(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
     if (x->words.shapes != 1 || o->chart->implicit || nh_counted_has_walls(o)) return;
@@ -256,11 +249,15 @@ void nh_series_stages(nh_stage_solver *x)
     if (p.full || nh_stage_solver_done(x)) return;
     closed_forms(&p);
     named(&p, "squares of velocities");
-    search(&p, "squares of velocities");
+    series(&p, "squares of velocities");
 }
 
-void nh_stage_solver_series_of_positions(nh_stage_solver *x)
+/* Velocities with functions of one coordinate q, and the others times a linear current: where dx/dt = c f(q) dq/dt with
+ * constants c and c' = g(q) dq/dt, x c' - c F(q) is constant.  Only where the count misses linear integrals. */
+static void of_positions(nh_stage_solver *x)
 {
+    const nh_completeness *count = &x->r->completeness[NH_COMPLETE_IN_COORDINATES];
+    if (!count->counted || count->missing_at != 1 || !count->missing) return;
     enum { most_currents = 2 };
     const nh_analysis *r = x->r;
     const nh_model *o = r->model;
@@ -281,7 +278,7 @@ void nh_stage_solver_series_of_positions(nh_stage_solver *x)
         for (size_t s = 0; s < o->m && linear; s++)
             if (o->system->coordinate[s].q != q) put(&p, nh_mul(o->dag, o->system->coordinate[s].q, c));
     }
-    if (currents) search(&p, "velocities, and positions times currents,");
+    if (currents) series(&p, "velocities, and positions times currents,");
 }
 
 /* Velocities and positions times the rate of q: Killing fields of plane waves are translations with functions of the
@@ -295,7 +292,7 @@ static void affine_in(nh_stage_solver *x, nh_ex q)
     named(&p, "velocities and their products with positions");
 }
 
-void nh_stage_solver_series_in_each(nh_stage_solver *x)
+static void in_each(nh_stage_solver *x)
 {
     enum { most_shapes = 3 };
     if (x->words.shapes < 2 || x->words.shapes > most_shapes || x->r->model->chart->implicit ||
@@ -337,7 +334,7 @@ static void put_polar(problem *p)
 }
 
 /* Functions of t: where the equations are linear these give all currents. */
-void nh_stage_solver_series_in_time(nh_stage_solver *x)
+static void in_time(nh_stage_solver *x)
 {
     const nh_model *o = x->r->model;
     nh_ex one = nh_int(o->dag, 1);
@@ -349,10 +346,10 @@ void nh_stage_solver_series_in_time(nh_stage_solver *x)
     put_all(&p, x->words.momenta, x->words.momentum);
     p.full &= x->words.positions + o->n >= most_words; /* momenta only as far as there is room */
     named(&p, "positions, velocities and momenta");
-    search(&p, "positions, velocities and momenta");
+    series(&p, "positions, velocities and momenta");
     put_polar(&p);
     p.equation = NULL;
-    if (p.words) search(&p, "lengths and the frame of the kinetic energy times first harmonics");
+    if (p.words) series(&p, "lengths and the frame of the kinetic energy times first harmonics");
     p.words = 0;
     p.full = false;
     nh_ex *linear = nh_arena_alloc(x->r->arena, (x->words.positions + o->n + 1) * sizeof *linear);
@@ -364,5 +361,18 @@ void nh_stage_solver_series_in_time(nh_stage_solver *x)
     put_all(&p, x->words.atoms, x->words.atom);
     put(&p, one);
     named(&p, "their squares and the system's functions");
-    search(&p, "their squares and the system's functions");
+    series(&p, "their squares and the system's functions");
 }
+
+static void all(nh_stage_solver *x, bool series_too)
+{
+    x->series = series_too;
+    if (!nh_stage_solver_done(x)) in_one(x);
+    in_time(x);
+    if (!nh_stage_solver_done(x)) in_each(x);
+    if (series_too) of_positions(x);
+}
+
+void nh_stage_solver_named(nh_stage_solver *x) { all(x, false); }
+
+void nh_stage_solver_series(nh_stage_solver *x) { all(x, true); }

@@ -139,10 +139,7 @@ static size_t keep(problem *p, const double *bound)
     p->points = NULL;
     for (size_t k = 0; k < p->f.count && r->independent < r->local_maximum; k++) {
         nh_ex phi = nh_box_series_expression(p->series, &p->f, k);
-        if (!nh_currents_add_series(bench, phi, series_of(p, k, bound[k]), -log10(bound[k]))) continue;
-        r->found[r->count - 1].meaning = meaning_of(p, k);
-        r->independent++;
-        added++;
+        added += nh_currents_add_series(bench, phi, series_of(p, k, bound[k]), -log10(bound[k]), meaning_of(p, k));
     }
     return added;
 }

@@ -234,29 +234,29 @@ static void solve_elsewhere(nh_stage_solver *x, const nh_solved *s, size_t pivot
 static void relate(nh_stage_solver *x, const nh_solved *s, nh_candidate *c, nh_ex pivot, bool certain)
 {
     nh_analysis *r = x->r;
-    nh_current last = r->found[r->count - 1];
+    const nh_proof *proof = &r->found[r->count - 1].proof;
     size_t values = 0;
-    for (size_t i = 0; i < r->model->system->parameters && last.proof.fixed; i++)
-        values += nh_fixed_has(r->model, last.proof.fixed, i);
+    for (size_t i = 0; i < r->model->system->parameters && proof->fixed; i++)
+        values += nh_fixed_has(r->model, proof->fixed, i);
     if (values < 2) return;
     c->by_values = false;
     c->pivot = 0;
     c->term[0] = pivot;
-    r->count--;
-    if (!nh_currents_add(x->bench, c, s->fit, certain)) nh_currents_put(x->bench, &last);
+    nh_currents_add_again(x->bench, c, s->fit, certain);
 }
 
 /* A current that holds at the given values of the parameters only, while another one holds for all: the latter is
- * taken. */
-static size_t without_values(nh_stage_solver *x, const nh_solved *s, size_t pivots, const nh_ex *pivot, nh_ex own,
-                             nh_other_values *other, bool *exchanged)
+ * taken.  False: there is none. */
+static bool exchange(nh_stage_solver *x, const nh_solved *s, size_t pivots, const nh_ex *pivot, nh_ex own,
+                     nh_other_values *other)
 {
     const nh_analysis *r = x->r;
     const nh_proof *proof = &r->found[r->count - 1].proof;
-    *exchanged = true;
-    if (!proof->proved || proof->all_parameters || r->model->system->parameters == 0) return 0;
+    bool exchanged = true;
+    if (!proof->proved || proof->all_parameters || r->model->system->parameters == 0) return true;
     if (!other->tried) solve_elsewhere(x, s, pivots, pivot, other);
-    return nh_other_values_exchange(x->bench, other, own, exchanged);
+    nh_other_values_exchange(x->bench, other, own, &exchanged);
+    return exchanged;
 }
 
 static nh_ex *pivots_of(const nh_candidates *list)
@@ -284,12 +284,10 @@ static size_t add_new(nh_stage_solver *x, nh_candidates *list, const nh_solved *
         }
         c->by_values = c->only_new = true;
         if (kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, c, s->fit, certain)) {
-            bool exchanged;
-            r->independent += 1 + without_values(x, s, pivots, pivot, pivot[k], &other, &exchanged);
-            if (!exchanged) relate(x, s, c, pivot[k], certain);
+            if (!exchange(x, s, pivots, pivot, pivot[k], &other)) relate(x, s, c, pivot[k], certain);
         }
     }
-    r->independent += nh_currents_join(x->bench, s->fit);
+    nh_currents_join(x->bench, s->fit);
     nh_free(kind);
     nh_free(pivot);
     nh_other_values_clear(&other);
@@ -370,7 +368,6 @@ size_t nh_stage_solver_certify(nh_stage_solver *x, nh_ex e, const char *name)
     note->sectors = 1;
     note->found = nh_currents_add(x->bench, candidate_of(x, 1, &e, &one), x->ranges, false);
     note->dimension = note->found;
-    r->independent += note->found;
     return note->found;
 }
 
@@ -388,7 +385,6 @@ void nh_stage_solver_certify_each(nh_stage_solver *x, size_t n, const nh_ex *e, 
     for (size_t k = 0; k < list.count && !nh_stage_solver_done(x); k++) {
         bool added = kind[k] == NH_INDEPENDENT && nh_currents_add(x->bench, &list.candidate[k], x->ranges, false);
         note.found += added;
-        r->independent += added;
     }
     note.seconds = nh_clock() - start;
     *nh_stage_solver_note(x, name) = note;

@@ -15,11 +15,9 @@ typedef struct {
     nh_points *ranges;
     nh_reflections *reflections; /* made for the first large stage */
     nh_counted counted;          /* stages that the count makes superfluous are left out */
-    /* number of quadratic forms that linear motion leaves invariant, when all of them are known */
-    size_t forms;
     /* the present stage has few columns for its purpose: it may have as many as any ansatz */
     bool wide;
-    bool postpones; /* new series are left to the construction, which may find closed forms of them */
+    bool series; /* of the row with series: those with names were not enough */
 } nh_stage_solver;
 
 /* Points for the ranges of columns, and a current checker; no stages yet. */
@@ -68,10 +66,7 @@ void nh_rates_search(nh_stage_solver *solver);
 void nh_linear_motion_search(nh_stage_solver *solver);
 /* The same of functions of the coordinates that have such equations. */
 void nh_linear_motion_functions(nh_stage_solver *solver);
-/* The quadratic forms of such a system alone, where its rates have no names.  They contain what the stage of positions
- * turned into each other gives, which needs more work. */
-void nh_linear_motion_forms(nh_stage_solver *solver);
-/* Canonical momenta times 1 and positions, and centres of mass, where the kinetic energy depends on the position. */
+/* Canonical momenta times 1 and positions, and centres of mass. */
 void nh_linear_fields_search(nh_stage_solver *solver);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */
 void nh_isometries_search(nh_stage_solver *solver);
@@ -86,15 +81,9 @@ void nh_velocity_turn_search(nh_stage_solver *solver);
 /* Integrals found, up to this degree, times 1, coordinates, t and antiderivatives of the system's functions; for degree
  * one also velocities times 1 and positions.  Has it found something? */
 bool nh_primitives_search(nh_stage_solver *solver, bool time, size_t degree);
-/* Currents polynomial in the velocities whose coefficients are functions of one coordinate, without closed form. */
-void nh_series_stages(nh_stage_solver *solver);
-/* The same for currents linear in the velocities, where the equations depend on several coordinates: after the stages
- * that find closed forms. */
-void nh_stage_solver_series_in_each(nh_stage_solver *solver);
-/* Velocities with functions of one coordinate q, and the others times a linear current: where dx/dt = c f(q) dq/dt with
- * constants c and c' = g(q) dq/dt, x c' - c F(q) is constant. */
-void nh_stage_solver_series_of_positions(nh_stage_solver *solver);
-/* With functions of t. */
-void nh_stage_solver_series_in_time(nh_stage_solver *solver);
+/* Currents polynomial in the velocities whose coefficients are functions of one coordinate or of t: functions that have
+ * names, such as Bessel's; or, besides, power series, which are no closed form. */
+void nh_stage_solver_named(nh_stage_solver *solver);
+void nh_stage_solver_series(nh_stage_solver *solver);
 
 #endif

@@ -14,6 +14,7 @@
 #include "search/constraint_integrals.h"
 #include "search/frames.h"
 #include "search/integral_levels.h"
+#include "search/missing.h"
 #include "search/quadratures.h"
 #include "search/sides.h"
 #include "search/slopes.h"
@@ -33,7 +34,7 @@ static void without_positions(nh_stage_solver *x, nh_ex momentum)
 }
 
 /* The energy and each momentum alone, so that no nearly dependent function replaces them. */
-static void single_stages(nh_stage_solver *x)
+static void energy_and_momenta(nh_stage_solver *x)
 {
     nh_analysis *r = x->r;
     for (size_t i = 0; i <= x->words.momenta && !nh_stage_solver_done(x); i++) {
@@ -55,39 +56,6 @@ static void force_potential(nh_stage_solver *x)
     if (U) nh_stage_solver_certify(x, nh_sub(o->dag, o->E, U), "energy and potential of the forces");
 }
 
-/* Each of the system's functions alone: many together are nearly dependent on a small interval. */
-static void function_stages(nh_stage_solver *x)
-{
-    nh_analysis *r = x->r;
-    size_t n = x->words.velocities + x->words.forms;
-    nh_ex *linear = nh_arena_alloc(r->arena, (n + 1) * sizeof *linear);
-    memcpy(linear, x->words.velocity, x->words.velocities * sizeof *linear);
-    memcpy(linear + x->words.velocities, x->words.form, x->words.forms * sizeof *linear);
-    for (size_t i = 0; i < x->words.atoms && !nh_stage_solver_done(x); i++) {
-        nh_family *part = nh_arena_alloc(r->arena, 2 * sizeof *part), *all = nh_arena_alloc(r->arena, sizeof *all);
-        part[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = linear};
-        part[1] = (nh_family){.kind = NH_TERMS, .terms = 1, .term = &x->words.atom[i]};
-        all[0] = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
-        if (nh_stage_solver_promising(x, 1, all))
-            nh_stage_solver_stage(x, "velocities and forms times one function", 1, all);
-    }
-}
-
-/* The usual integrals of many bodies, before stages that are too large for such systems. */
-static void stages_of_many(nh_stage_solver *x)
-{
-    enum { few_coordinates = 6, turns = 1 };
-    nh_stage stage;
-    x->wide = true;
-    for (size_t i = 0; x->r->model->m > few_coordinates && !nh_stage_solver_done(x) &&
-                       nh_stage_of_many(x->r->arena, x->r->model, &x->words, i, &stage);
-         i++) {
-        if (i == turns) nh_linear_motion_forms(x);
-        if (i != turns || !x->forms) nh_stage_solver_stage(x, stage.name, stage.families, stage.family);
-    }
-    x->wide = false;
-}
-
 /* Whether a limit ended the search.  Work ends it at the same place everywhere, time does not; a stage that was too
  * large is skipped and ends nothing. */
 static void how_it_ended(nh_analysis *r, bool spent)
@@ -105,104 +73,106 @@ static void how_it_ended(nh_analysis *r, bool spent)
 /* For these only the equations on one side of kinks are left. */
 static void sides(nh_stage_solver *x) { nh_sides_search(x, nh_staged_search_run); }
 
-/* A stage of `stages`, or a search of its own. */
+static void primitives(nh_stage_solver *x) { nh_missing_primitives(x); }
+
+/* Each part of the search has the whole of the option `work`; the last one, which is short, as much as it needs. */
+typedef enum { FITTED, INTEGRATED, CONSTRUCTED, REST, ELSEWHERE, PARTS } part;
+
+/* A row of the search: a stage of `stages`, or a search of its own. */
 typedef struct {
-    const char *name;                     /* for `left_out`, and docs/stages.md */
+    const char *name; /* for `left_out`, and docs/stages.md */
+    part part;
     void (*run)(nh_stage_solver *solver); /* NULL: the stage */
     nh_stage_name stage;
-} step;
+} row;
 
-/* What is found by small linear problems first; what they can hide from each other, and what needs many columns,
-   later.  From the third step on the count may make a stage superfluous. */
-static const step steps[] = {
-    {"linear fields", nh_linear_fields_search, 0}, /* before stages whose coefficients would be masses and lengths */
-    {"words", .stage = NH_STAGE_WORDS},            /* the energy, momenta, velocities and positions by themselves */
-    {"driven words", .stage = NH_STAGE_DRIVE},     /* with what a force of t adds to them */
-    {"rational", .stage = NH_STAGE_RATIONAL},      /* velocities in denominators */
-    {"many bodies", stages_of_many, 0},            /* and angular momenta, where everything else is too large */
-    /* before the pencil, which has the rates of linear motion by rounding */
-    {"linear motion", nh_linear_motion_search, 0},
-    {"hidden linear motion", nh_linear_motion_functions, 0}, /* the same in coordinates that hide it */
-    {"rates", nh_rates_search, 0}, /* before larger stages, whose null vectors are less short */
-    {"words times positions", .stage = NH_STAGE_WORDS_POSITIONS}, /* and times t */
-    {"momenta times functions", .stage = NH_STAGE_MOMENTA},       /* and harmonics, whatever L is */
-    {"isometries", nh_isometries_search, 0},                      /* the same, whatever the coordinates */
-    {"one function", function_stages, 0},                         /* times one function */
-    {"turning velocities", nh_velocity_turn_search, 0},           /* two velocities and their energy */
-    {"slopes", nh_slopes_search, 0},                              /* two velocities by themselves */
-    {"last quadrature", nh_quadratures_complete, 0},              /* where one integral is missing, or a linear one */
-    {"series of one coordinate", nh_series_stages, 0},            /* no closed form */
-    {"degree 2", .stage = NH_STAGE_DEGREE_2},                     /* from here on columns by the hundred */
-    {"weights", .stage = NH_STAGE_WEIGHTS},                       /* Runge and Lenz */
-    {"weight 4", .stage = NH_STAGE_WEIGHT_4},                     /* Kovalevskaya, Toda, Calogero */
-    {"separation", .stage = NH_STAGE_SEPARATION},                 /* Euler, Liouville */
-    {"degree 2 in time", .stage = NH_STAGE_TIME},                 /* Ermakov, Lewis */
-    {"series in time", nh_stage_solver_series_in_time, 0},        /* no closed form */
-    {"half angles", .stage = NH_STAGE_HALF_ANGLES},               /* parabolic coordinates seen from polar ones */
-    {"series of each coordinate", nh_stage_solver_series_in_each, 0}, /* no closed form, of one coordinate each */
+/* What is known comes first; then small linear problems, because what is found in them is short; from `counted` on
+   those are left out in which the count says that nothing is missing.  Then the equations are integrated one after
+   another, which gives the motion, too, and what the count still misses is constructed.  What has no closed form is a
+   series at last.  The search ends as soon as there can be no more.  docs/stages.md has what each row is worth. */
+static const row rows[] = {
+    {"constraints", FITTED, nh_integrals_find, 0},         /* positions that they hold */
+    {"energy and momenta", FITTED, energy_and_momenta, 0}, /* alone: no nearly dependent function replaces them */
+    {"potential of forces", FITTED, force_potential, 0},   /* the energy with it */
+    {"linear fields", FITTED, nh_linear_fields_search,
+     0},                                               /* translations, turns, boosts: with numbers for all masses */
+    {"words", FITTED, .stage = NH_STAGE_WORDS},        /* the energy, momenta, velocities, positions by themselves */
+    {"driven words", FITTED, .stage = NH_STAGE_DRIVE}, /* with what a force of t adds to them */
+    {"rational", FITTED, .stage = NH_STAGE_RATIONAL},  /* velocities in denominators */
+    {"linear motion", FITTED, nh_linear_motion_search, 0}, /* before the pencil, which has its rates by rounding */
+    {"hidden linear motion", FITTED, nh_linear_motion_functions, 0}, /* in coordinates that hide it */
+    {"rates", FITTED, nh_rates_search, 0},                           /* exponentials and waves with rates of a pencil */
+    {"words times positions", FITTED, .stage = NH_STAGE_WORDS_POSITIONS}, /* and times t */
+    {"momenta times functions", FITTED, .stage = NH_STAGE_MOMENTA},       /* and harmonics, whatever L is */
+    {"isometries", FITTED, nh_isometries_search, 0},                      /* the same, whatever the coordinates */
+    {"turning velocities", FITTED, nh_velocity_turn_search, 0},           /* two velocities and their energy */
+    {"slopes", FITTED, nh_slopes_search, 0},                              /* two velocities by themselves */
+    {"last quadrature", FITTED, nh_quadratures_complete, 0},              /* where one is missing, or a linear one */
+    {"degree 2", FITTED, .stage = NH_STAGE_DEGREE_2},                     /* from here on columns by the hundred */
+    {"weights", FITTED, .stage = NH_STAGE_WEIGHTS},                       /* Runge and Lenz */
+    {"weight 4", FITTED, .stage = NH_STAGE_WEIGHT_4},                     /* Kovalevskaya, Toda, Calogero */
+    {"degree 2 in time", FITTED, .stage = NH_STAGE_TIME},                 /* Ermakov, Lewis */
+    {"half angles", FITTED, .stage = NH_STAGE_HALF_ANGLES},               /* parabolic coordinates from polar ones */
+    {"named functions", FITTED, nh_stage_solver_named, 0}, /* Bessel, Gauss, .. of one coordinate, or of t */
+    {"quadratures", INTEGRATED, nh_quadratures_search, 0},
+    {"construct", CONSTRUCTED, nh_missing_find, 0},
+    {"primitives", REST, primitives, 0}, /* of the further integrals that it found */
+    {"series", REST, nh_stage_solver_series, 0},
+    {"frames", ELSEWHERE, nh_frames_search, 0},          /* in velocities along and across headings */
+    {"levels", ELSEWHERE, nh_integral_levels_search, 0}, /* on levels of linear integrals */
+    {"sides", ELSEWHERE, sides, 0},                      /* of kinks */
 };
 
-/* After them, with all the work that is needed. */
-static const step last_steps[] = {
-    {"quadratures", nh_quadratures_search, 0},
-    {"frames", nh_frames_search, 0},
-    {"levels", nh_integral_levels_search, 0},
-    {"sides", sides, 0},
-};
+enum { ROWS = sizeof rows / sizeof *rows, counted = 5 };
 
-enum { STEPS = sizeof steps / sizeof *steps, LAST_STEPS = sizeof last_steps / sizeof *last_steps };
+const char *nh_staged_search_row(size_t i) { return i < ROWS ? rows[i].name : NULL; }
 
-const char *nh_staged_search_row(size_t i)
+/* Is there nothing for this part to do?  Of a complete list the motion may not be known, nor the functions without
+   which not all integrals are polynomials of the list. */
+static bool part_is_done(const nh_stage_solver *x, part p)
 {
-    return i < STEPS ? steps[i].name : i < STEPS + LAST_STEPS ? last_steps[i - STEPS].name : NULL;
+    return p == INTEGRATED ? nh_budget_spent() || nh_late() : p == CONSTRUCTED ? nh_late() : nh_stage_solver_done(x);
 }
 
 /* What a row may change: a row that changes nothing can be left out. */
 typedef struct {
-    size_t count, pieces, independent, forms;
-    bool postponed;
+    size_t count, pieces, independent, furthers;
 } outcome;
 
-static outcome outcome_of(const nh_stage_solver *x)
-{
-    return (outcome){x->r->count, x->r->pieces, x->r->independent, x->forms, x->r->postponed};
-}
+static outcome outcome_of(const nh_analysis *r) { return (outcome){r->count, r->pieces, r->independent, r->furthers}; }
 
-static void run_step(nh_stage_solver *x, const step *s, size_t row)
+static void run_row(nh_stage_solver *x, size_t i)
 {
     nh_stage stage;
     nh_analysis *r = x->r;
-    outcome before = outcome_of(x);
-    if (r->left_out >> row & 1) return;
-    if (s->run) s->run(x);
-    else if (nh_stage_at(r->arena, r->model, &x->words, s->stage, &stage))
+    const row *own = &rows[i];
+    if (part_is_done(x, own->part) || r->left_out >> i & 1) return;
+    outcome before = outcome_of(r);
+    x->counted.on = own->part != CONSTRUCTED && i >= counted;
+    if (own->run) own->run(x);
+    else if (nh_stage_at(r->arena, r->model, &x->words, own->stage, &stage))
         nh_stage_solver_stage(x, stage.name, stage.families, stage.family);
-    outcome after = outcome_of(x);
-    bool same = before.count == after.count && before.pieces == after.pieces && before.forms == after.forms &&
-                before.independent == after.independent && before.postponed == after.postponed;
-    if (!same) r->used |= UINT64_C(1) << row;
+    outcome after = outcome_of(r);
+    if (memcmp(&before, &after, sizeof before)) r->used |= UINT64_C(1) << i;
 }
 
 bool nh_staged_search_run(nh_analysis *r, nh_error *error)
 {
     nh_stage_solver x;
+    bool spent = false;
     if (!nh_stage_solver_begin(&x, r, error)) return false;
-    nh_budget_begin(r->options.work);
     r->counted = nh_count_memory_create();
     x.words = nh_dictionary_of(r->model);
-    nh_integrals_find(&x);
-    single_stages(&x);
-    if (!nh_stage_solver_done(&x)) force_potential(&x);
-    for (size_t i = 0; i < STEPS && !nh_stage_solver_done(&x); i++) {
-        x.counted.on = i > 1;
-        x.postpones = i + 1 == STEPS && r->options.construct > 0;
-        run_step(&x, &steps[i], i);
+    for (part p = 0; p < PARTS; p++) {
+        /* the motion is integrated with what the fits have left */
+        if (p != INTEGRATED) nh_budget_begin(p == ELSEWHERE ? INFINITY : r->options.work);
+        for (size_t i = 0; i < ROWS; i++)
+            if (rows[i].part == p) run_row(&x, i);
+        spent |= p != CONSTRUCTED && nh_budget_spent();
     }
-    run_step(&x, &last_steps[0], STEPS);
-    bool spent = nh_budget_spent();
     nh_budget_begin(INFINITY);
-    for (size_t i = 1; i < LAST_STEPS && !nh_stage_solver_done(&x); i++) run_step(&x, &last_steps[i], STEPS + i);
     nh_currents_finish(x.bench);
+    nh_missing_name_further(r);
     how_it_ended(r, spent);
     nh_stage_solver_end(&x);
     return true;

@@ -253,11 +253,6 @@ typedef struct {
     void (*build)(nh_family_list *);
 } recipe;
 
-static const recipe of_many[] = {
-    {"momenta times 1 and t, and positions", nh_stage_centres},
-    {"positions turned into each other", nh_stage_turns},
-};
-
 static const recipe stages[] = {
     [NH_STAGE_WORDS] = {"energy, momenta, velocities, forms, positions, terms of the potential", stage_words},
     [NH_STAGE_DRIVE] = {"momenta times 1, t and logarithms of t, positions, powers of t", nh_stage_drive},
@@ -268,31 +263,17 @@ static const recipe stages[] = {
     [NH_STAGE_DEGREE_2] = {"total degree 2 times the system's own functions", stage_degree_2},
     [NH_STAGE_WEIGHTS] = {"quadratic forms times positions", stage_weights},
     [NH_STAGE_WEIGHT_4] = {"weighted degree 4 in the frame of the kinetic energy", nh_stage_weight_4},
-    [NH_STAGE_SEPARATION] = {"squares of velocities times positions of higher degree, energy and functions times lower",
-                             nh_stage_separation},
     [NH_STAGE_TIME] = {"squares of positions and velocities times functions of time", nh_stage_time},
     [NH_STAGE_HALF_ANGLES] = {"squares of the frame times lengths and half angles", nh_stage_half_angles},
     [NH_STAGE_RATIONAL] = {"quotients by the denominators of the Lagrangian", nh_stage_rational},
 };
 
-static nh_stage cook(const recipe *r, nh_arena *arena, const nh_model *o, const nh_dictionary *w)
-{
-    nh_family_list s = {arena, o, w, nh_arena_alloc(arena, NH_MOST_FAMILIES * sizeof(nh_family)), 0};
-    r->build(&s);
-    return (nh_stage){r->name, s.count, s.family};
-}
-
 bool nh_stage_at(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t index, nh_stage *out)
 {
     if (index >= sizeof stages / sizeof *stages) return false;
-    *out = cook(&stages[index], arena, o, w);
-    return true;
-}
-
-bool nh_stage_of_many(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t index, nh_stage *out)
-{
-    if (index >= sizeof of_many / sizeof *of_many) return false;
-    *out = cook(&of_many[index], arena, o, w);
+    nh_family_list s = {arena, o, w, nh_arena_alloc(arena, NH_MOST_FAMILIES * sizeof(nh_family)), 0};
+    stages[index].build(&s);
+    *out = (nh_stage){stages[index].name, s.count, s.family};
     return true;
 }
 

@@ -19,7 +19,6 @@ typedef enum {
     NH_STAGE_DEGREE_2,
     NH_STAGE_WEIGHTS,
     NH_STAGE_WEIGHT_4,
-    NH_STAGE_SEPARATION,
     NH_STAGE_TIME,
     NH_STAGE_HALF_ANGLES,
     NH_STAGE_RATIONAL
@@ -28,10 +27,6 @@ typedef enum {
 /* Stage `index`, an nh_stage_name, for this dictionary, in the arena; false when there are no more.  A stage may
  * have no families. */
 bool nh_stage_at(nh_arena *arena, const nh_model *model, const nh_dictionary *dictionary, size_t index, nh_stage *out);
-
-/* The same of the stages of few columns, for systems of many coordinates. */
-bool nh_stage_of_many(nh_arena *arena, const nh_model *model, const nh_dictionary *dictionary, size_t index,
-                      nh_stage *out);
 
 /* What the search for unknown rates starts from.  The first three are tried one after another for every variable, FRAME
  * and PRODUCTS for cyclic ones; the others where the search asks for them. */

@@ -55,12 +55,6 @@ void nh_stage_drive(nh_family_list *families);
 /* Squares of positions and velocities with coefficients that depend on time: Ermakov and Lewis. */
 void nh_stage_time(nh_family_list *families);
 
-/* ---- stages_many.c ---- */
-
-/* Momenta times 1 and t, positions, t; then q_i v_j - q_j v_i. */
-void nh_stage_centres(nh_family_list *families);
-void nh_stage_turns(nh_family_list *families);
-
 /* ---- stages_weighted.c ---- */
 
 /* Degree four with weights, in the frame of the kinetic energy. */
@@ -72,11 +66,6 @@ void nh_stage_weight_4(nh_family_list *families);
 void nh_stage_rational(nh_family_list *families);
 nh_expr_set nh_expr_set_quotients(const nh_family_list *families);
 
-/* ---- stages_separation.c ---- */
-
-/* Squares of velocities with coefficients of higher degree in the positions; the energy and functions with lower
- * ones. */
-void nh_stage_separation(nh_family_list *families);
 /* Half angles: parabolic coordinates seen from polar ones. */
 void nh_stage_half_angles(nh_family_list *families);
 

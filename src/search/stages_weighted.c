@@ -3,6 +3,7 @@
 #include "exact/normal.h"
 #include "graph/dag.h"
 #include "graph/node.h"
+#include "graph/function.h"
 #include "search/stages_internal.h"
 
 /* Weighted degree four: linear forms have weight one, terms of the potential and their derivatives two, as in the
@@ -51,4 +52,25 @@ void nh_stage_weight_4(nh_family_list *s)
     if (s->w->frames == s->o->n) nh_expr_set_put_all(&u, s->w->frames, s->w->frame);
     else nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
     weighted(s, &u, &f);
+}
+
+/* Parabolic coordinates are r cos^2(q/2), r sin^2(q/2): integrals that separate in them are quadratic in the frame
+ * times lengths and half angles. */
+void nh_stage_half_angles(nh_family_list *s)
+{
+    nh_dag *d = s->o->dag;
+    nh_expr_set half = {0}, f = {0}, l = nh_expr_set_lengths(s, false, false), ll = nh_expr_set_lengths(s, true, false);
+    if (s->w->waves != 1 || s->w->frames != s->o->n || s->o->k) return;
+    for (int k = 1; k <= 3; k += 2) {
+        nh_ex angle = nh_mul(d, nh_ratio(d, k, 2), s->w->wave[0]);
+        nh_expr_set_put(&half, nh_call(d, NH_COS, angle));
+        nh_expr_set_put(&half, nh_call(d, NH_SIN, angle));
+    }
+    nh_expr_set_put_all(&f, s->w->frames, s->w->frame);
+    nh_expr_set ff = nh_expr_set_squares(s, &f);
+    nh_family_list_add(s,
+                       nh_family_list_product(s, 3,
+                                              (nh_family[]){nh_family_list_terms(s, &ff), nh_family_list_terms(s, &l),
+                                                            nh_family_list_terms(s, &half)}));
+    nh_family_list_product_of_sets(s, &ll, &half);
 }

@@ -1,0 +1,31 @@
+/* current_list: the integrals that an analysis has found.
+ *
+ * Only this file changes which integrals there are, their order and their number (found, count, independent; piece,
+ * pieces; further, furthers of nh_analysis).  The checker (currents.h) alone appends; whatever it appends was checked.
+ * Later steps describe an integral that is in the list: its name, relation, symmetry, drift. */
+#ifndef NH_CURRENT_LIST_H
+#define NH_CURRENT_LIST_H
+
+#include "search/analysis.h"
+
+/* Appends a copy; it counts as independent where its own member says so. */
+void nh_current_list_append(nh_analysis *result, const nh_current *checked);
+/* Takes number k out of the list, into whose place the last one moves. */
+nh_current nh_current_list_take(nh_analysis *result, size_t k);
+/* Takes out those for which `leaves` holds; returns their number, and copies of them in the arena. */
+size_t nh_current_list_take_all(nh_analysis *result, bool (*leaves)(const nh_current *current), nh_current **taken);
+/* The energy first, then the simple ones, so that complicated ones are called dependent; equally simple ones in an
+ * order that does not depend on rounding. */
+void nh_current_list_sort(nh_analysis *result);
+/* Whether each of them is independent of those before it; fraction[k] of its gradient is. */
+void nh_current_list_rank(nh_analysis *result, const nh_independence *kind, const double *fraction);
+
+/* The same for those of a part of the motions; false where there are NH_MOST_PIECES. */
+bool nh_current_list_append_piece(nh_analysis *result, const nh_current *checked);
+/* Keeps those with keep[k], in their order. */
+void nh_current_list_keep_pieces(nh_analysis *result, const bool *keep);
+
+/* The same for functions of the others; false where there are NH_MOST_FURTHER.  degree: in the velocities. */
+bool nh_current_list_append_further(nh_analysis *result, const nh_current *checked, size_t degree);
+
+#endif
