@@ -10,7 +10,6 @@
 #include "search/currents.h"
 #include "search/missing_internal.h"
 #include "search/relations.h"
-#include "search/series_several.h"
 
 typedef nh_missing_search search;
 
@@ -147,21 +146,13 @@ static void postponed_series(search *s)
     s->solver.counted.on = false;
 }
 
-/* What has no closed form: of the kind that comes first, unless only the other may have more. */
-static void in_several(search *s)
+/* Integrals linear in the velocities without closed form, where the count misses one. */
+static void series_of_positions(search *s)
 {
-    nh_analysis *r = s->solver.r;
-    const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    size_t before = r->count;
-    if (c->counted && c->missing_at == 1 && c->missing) {
-        s->solver.words = nh_dictionary_of(r->model);
-        nh_stage_solver_series_of_positions(&s->solver);
-    }
-    bool found = r->count > before;
-    for (size_t i = 0; i < NH_COMPLETENESS_KINDS && !found && !nh_stage_solver_done(&s->solver); i++) {
-        c = &r->completeness[i];
-        if (!nh_missing_adds_nothing(r, c)) found = nh_series_in_several(&s->solver, c);
-    }
+    const nh_completeness *c = &s->solver.r->completeness[NH_COMPLETE_IN_COORDINATES];
+    if (!c->counted || c->missing_at != 1 || !c->missing) return;
+    s->solver.words = nh_dictionary_of(s->solver.r->model);
+    nh_stage_solver_series_of_positions(&s->solver);
 }
 
 /* A series along one coordinate, made or postponed, may be an integral that has a name, times integrals that were
@@ -222,7 +213,7 @@ static void look(nh_analysis *r)
     }
     size_t before = r->independent;
     if (r->postponed && !nh_late()) postponed_series(&s);
-    in_several(&s);
+    series_of_positions(&s);
     if (r->independent > before && r->independent >= r->local_maximum) { /* nothing is missing then */
         r->search = NH_SEARCH_COMPLETE;
         if (!nh_late()) count(r, 0, 1);

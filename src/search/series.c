@@ -100,10 +100,9 @@ static size_t keep(problem *p, const nh_series_space *space)
     size_t n = space->words * (space->degree + 1), added = 0;
     for (size_t k = 0; k < space->count && r->independent < r->local_maximum; k++) {
         nh_series *series = nh_arena_alloc(r->arena, sizeof *series);
-        *series = (nh_series){.variables = 1,
-                              .variable = {p->variable},
-                              .low = {space->low},
-                              .high = {space->high},
+        *series = (nh_series){.variable = p->variable,
+                              .low = space->low,
+                              .high = space->high,
                               .word = nh_arena_alloc(r->arena, space->words * sizeof(nh_ex)),
                               .coefficient = nh_arena_alloc(r->arena, n * sizeof(double)),
                               .stride = space->degree + 1,
