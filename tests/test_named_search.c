@@ -100,11 +100,13 @@ Test(named_search, gauss, PLAIN_ONLY)
 {
     expect_named(ask_text(HEAD("{name: n, value: 1.3}") "lagrangian: (1 - t^2)*x'^2/2 - n*(n + "
                                                         "1)*x^2/2\ndomain: {t: [0.1, 0.8]}\n"),
+                 2, "legendre_p", 2);
+    expect_named(ask_text(HEAD("{name: n, value: 1.3}") "lagrangian: t*sqrt(t)*(1 - t)*x'^2/2 - n*sqrt(t)*x^2/2\ndomain: {t: [0.1, 0.8]}\n"),
                  2, "hyp2f1", 2);
     if (!sweep_whole()) return;
     expect_named(ask_text(HEAD("{name: w, value: 1.9}") "lagrangian: (1 - t^2)*x'^2/2 + "
                                                         "w^2*x^2/2\ndomain: {t: [0.1, 0.8]}\n"),
-                 2, "", 2);
+                 2, "gauss_f(1, w^2, 1, ", 2);
 }
 
 /* The rolling disk, whose parameters a and b are conjugate: k^2 = m C r^2/(A (C

@@ -253,11 +253,7 @@ static void validate(nh_analysis *r, const nh_analyze_request *q)
     for (size_t k = 0; k < r->count; k++) {
         const nh_series *series = r->found[k].series;
         phi[k] = r->found[k].phi;
-        if (!series) continue;
-        valid[k].variables = series->variables;
-        memcpy(valid[k].variable, series->variable, sizeof valid[k].variable);
-        memcpy(valid[k].low, series->low, sizeof valid[k].low);
-        memcpy(valid[k].high, series->high, sizeof valid[k].high);
+        if (series) valid[k] = (nh_valid){series->variable, series->low, series->high};
     }
     const nh_observable *watch = list_tracks(r);
     nh_choice choice = {.system = r->system, .model = r->model};

@@ -134,10 +134,7 @@ const char *nh_analysis_answer_proof(const nh_analysis *r, const nh_current *f)
 {
     nh_text out;
     nh_text_init(&out);
-    if (f->series && f->series->variables > 1)
-        nh_text_addf(&out, "Its rate is at most %.2g: a rigorous bound, no proof", f->series->bound);
-    else if (!f->proof.proved)
-        nh_text_addf(&out, "Conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
+    if (!f->proof.proved) nh_text_addf(&out, "Conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
     nh_text_addf(&out, "%s%s", nh_facts_holds(r->model, &f->proof, true), nh_facts_which_branch(r, f));
     put_where(r, f, &out);
     const char *text = nh_arena_strdup(r->arena, nh_text_string(&out));

@@ -289,6 +289,14 @@ static void put_drift(const writer *w, nh_json *to, const nh_current *f)
     else nh_json_put_bool(to, "drift_order_ok", f->drift.falls);
 }
 
+static void put_interval(nh_json *to, const writer *w, const nh_series *series)
+{
+    nh_json_put_text(to, "coordinate", nh_name_of(w->dag, series->variable));
+    nh_json_put_number(to, "low", series->low);
+    nh_json_put_number(to, "high", series->high);
+}
+
+/* `box`, `rate_bound` and `indices` once told of series in several variables: readers find them still. */
 static void put_series(const writer *w, nh_json *to, const nh_series *series)
 {
     if (!series) {
@@ -296,25 +304,10 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
         return;
     }
     nh_json *item = nh_json_put_object(to, "series");
-    if (series->variables == 1) {
-        nh_json_put_text(item, "coordinate", nh_name_of(w->dag, series->variable[0]));
-        nh_json_put_number(item, "low", series->low[0]);
-        nh_json_put_number(item, "high", series->high[0]);
-    } else {
-        nh_json_put_null(item, "coordinate");
-        nh_json_put_null(item, "low");
-        nh_json_put_null(item, "high");
-    }
-    nh_json *box = nh_json_put_array(item, "box");
-    for (size_t j = 0; j < series->variables; j++) {
-        nh_json *edge = nh_json_add_object(box);
-        nh_json_put_text(edge, "coordinate", nh_name_of(w->dag, series->variable[j]));
-        nh_json_put_number(edge, "low", series->low[j]);
-        nh_json_put_number(edge, "high", series->high[j]);
-    }
+    put_interval(item, w, series);
+    put_interval(nh_json_add_object(nh_json_put_array(item, "box")), w, series);
     nh_json_put_number(item, "degree", (double)series->degree);
-    if (series->variables > 1) nh_json_put_number(item, "rate_bound", series->bound);
-    else nh_json_put_null(item, "rate_bound");
+    nh_json_put_null(item, "rate_bound");
     if (series->equation) nh_json_put_text(item, "equation", series->equation);
     else nh_json_put_null(item, "equation");
     nh_json *words = nh_json_put_array(item, "words");
@@ -326,19 +319,10 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
     nh_json *table = nh_json_put_array(item, "coefficients");
     for (size_t i = 0; i < series->words; i++) {
         nh_json *row = nh_json_add_array(table);
-        size_t terms = series->index ? series->stride : series->degree + 1;
-        for (size_t k = 0; k < terms; k++) nh_json_add_number(row, series->coefficient[i * series->stride + k]);
+        for (size_t k = 0; k <= series->degree; k++)
+            nh_json_add_number(row, series->coefficient[i * series->stride + k]);
     }
-    if (!series->index) {
-        nh_json_put_null(item, "indices");
-        return;
-    }
-    table = nh_json_put_array(item, "indices");
-    for (size_t z = 0; z < series->stride; z++) {
-        nh_json *row = nh_json_add_array(table);
-        for (size_t j = 0; j < series->variables; j++)
-            nh_json_add_number(row, series->index[z * series->variables + j]);
-    }
+    nh_json_put_null(item, "indices");
 }
 
 /* The formula in LaTeX; null when it is too long to be shown. */

@@ -40,11 +40,6 @@ static void certificate(nh_pen *p, const nh_analysis *r, const nh_current *f)
 {
     nh_pen_fact_begin(p, "Certified");
     if (f->proof.proved) nh_pen_say(p, "proved");
-    else if (f->series && f->series->variables > 1)
-        nh_pen_say(p,
-                   "its rate is at most %.2g on this box for velocities of the chart up to 1 (a rigorous bound; that "
-                   "it is 0 for the functions meant is not proved)",
-                   f->series->bound);
     else nh_pen_say(p, "conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
     nh_pen_say(p, "%s%s", nh_facts_holds(r->model, &f->proof, false), nh_facts_which_branch(r, f));
     real_where(p, r, f);

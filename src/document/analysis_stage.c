@@ -62,7 +62,7 @@ static nh_stage_row row_of(const nh_analysis *r, const nh_current *f)
                         .anchor = nh_arena_printf(r->arena, "q-%s", f->name),
                         .label = without_end(r->arena, nh_current_label(r, f), "= "),
                         .value = nh_analysis_answer_shown(r, f),
-                        .proved = f->proof.proved && !(f->series && f->series->variables > 1),
+                        .proved = f->proof.proved,
                         .series = f->series != NULL,
                         .drift = f->drift.drift[NH_DRIFT_RUNS - 1]};
     return row;

@@ -83,10 +83,7 @@ nh_current_words nh_current_words_of(const nh_analysis *r, const nh_current *f, 
     if (follows) nh_text_add(&rest, "Follows from the others. ");
     if (f->independence == NH_DOUBTFUL) nh_text_add(&rest, "Perhaps it follows from the others. ");
     if (f->independence == NH_CONSTANT) nh_text_add(&rest, "It has the same value at all states. ");
-    if (proof) {
-        bool proved = f->proof.proved && !(f->series && f->series->variables > 1);
-        nh_text_addf(&rest, "%s%s.", proved ? "Proved" : "", proof);
-    }
+    if (proof) nh_text_addf(&rest, "%s%s.", f->proof.proved ? "Proved" : "", proof);
     out.rest = nh_arena_strdup(r->arena, nh_text_string(&rest));
     nh_text_clear(&what);
     nh_text_clear(&rest);

@@ -99,10 +99,8 @@ static void current_words(const nh_export *x, const nh_export_function *f, const
         else nh_text_addf(out, "conserved to %.0f digits%s%s", c->proof.digits, nh_formula_doubt(c), holds);
         if (c->local) nh_text_add(out, "; many-valued on an angle");
         if (c->series)
-            for (size_t j = 0; j < c->series->variables; j++)
-                nh_text_addf(out, j ? " and %g <= %s <= %g" : "; a series, for %g <= %s <= %g", c->series->low[j],
-                             nh_name_of(r->model->dag, c->series->variable[j]), c->series->high[j]);
-        if (c->series) nh_text_add(out, " only");
+            nh_text_addf(out, "; a series, for %g <= %s <= %g only", c->series->low,
+                         nh_name_of(r->model->dag, c->series->variable), c->series->high);
         nh_text_add(out, "\n");
     }
 }

@@ -289,25 +289,6 @@ static bool stand_at_centre(nh_ball_series *s, arb_t centre)
     return fine;
 }
 
-bool nh_ball_series_term(nh_ball_series *s, size_t count, const nh_ex *e, size_t degree, double *bound)
-{
-    arb_poly_t p;
-    arb_t v;
-    arb_poly_init(p);
-    arb_init(v);
-    bool fine = stand_at_centre(s, v);
-    s->terms = (slong)degree + 1;
-    for (size_t i = 0; i < count && fine; i++) {
-        fine = eval(s, e[i], p);
-        arb_poly_get_coeff_arb(v, p, (slong)degree);
-        bound[i] = nh_ball_upper(v);
-    }
-    forget(s);
-    arb_clear(v);
-    arb_poly_clear(p);
-    return fine;
-}
-
 /* The integrals at the next place, at distance w. */
 static bool go_on(nh_ball_series *s, const arb_t w)
 {

@@ -28,10 +28,6 @@ void nh_ball_series_free(nh_ball_series *series);
 bool nh_ball_series_take(nh_ball_series *series, size_t count, const nh_ex *e, size_t degree, double half,
                          double *coefficient, double *bound);
 
-/* A bound of |a_degree| of each of `count` expressions about all values that the variable has in the ball.  False where
- * one of them is not bounded. */
-bool nh_ball_series_term(nh_ball_series *series, size_t count, const nh_ex *e, size_t degree, double *bound);
-
 /* Moves the centre to `to` in equal steps no longer than `step`, but at most 1000: the ball gets the values of the
  * variable, the roots and the integrals there, enclosed by series; short steps keep the enclosures small.
  * False where a series does not exist on the way: then the ball has the values of an earlier place. */

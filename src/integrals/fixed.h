@@ -5,7 +5,7 @@
  * First every parameter is a symbol.  Where there is no such relation some of them must have their values: beginning
  * with all of them fixed, one after the other is set free as long as the relation remains.  Those that the user set,
  * and short values (1 before 0.6173), are set free last, because it is at these that something special happens.  Where
- * several are left, they may have to be related only, not to have these values (integrals/fixed_ties.h).
+ * several are left, they may have to be related only, not to have these values.
  *
  * `fixed` is a list of what each parameter is replaced by: a free one by itself, one that must have its value by that
  * number, one that is related to others by an expression of these, which are free. */

@@ -1,49 +1,61 @@
 #include "integrals/named_coefficients.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "evaluate/tape.h"
 #include "exact/normal.h"
+#include "exact/solve.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/named_match.h"
+#include "integrals/named_system.h"
 
-enum {
-    most_words = 32,
-    most_forms = 5,
-    longest_entry = 300,
-    longest = 3000,
-    longest_form = 60,
-    longest_shown = 250
-}; /* longest: largest complexity of a rate */
+enum { most_forms = 5, longest_form = 60, longest_shown = 250, three = NH_NAMED_ORDER };
+enum { longest_of_two = 1200, longest_of_many = 300 }; /* complexities of coefficients, of two words and of many */
 
 typedef struct {
     const nh_model *o;
-    nh_ex s, pace; /* the variable and Gamma of it */
-    size_t n;
-    nh_ex word[most_words];
-    nh_ex whole[most_words];          /* velocities w, positions q as q pace: of the same degree in the velocities */
-    nh_ex A[most_words * most_words]; /* Gamma(whole i) = pace sum_j A[i most_words
-                                         + j] whole j */
-    bool closed[most_words];          /* there is such a row */
-    size_t forms;
-    const nh_ex *form;
+    nh_dag *d;
+    nh_ex s;
+    size_t words; /* at hand: two, or all */
+    const nh_ex *word;
     nh_arena *arena;
     size_t count;
     nh_ex *out;
     const char *open; /* the first equation without a match */
 } seeker;
 
-static nh_ex simple(const seeker *x, nh_ex e) { return nh_simplify_short(x->o->dag, e, 0); }
+/* The equation of the unknown y of a block of order n. */
+typedef struct {
+    const nh_named_block *block;
+    size_t order, y;
+    nh_ex V[(three + 1) * three]; /* y, y', .. in g: (n + 1) x n */
+    nh_ex det;                    /* of the first n rows */
+    nh_ex c[three];               /* y^(n) = sum_k c_k y^(k) */
+    nh_ex lead[2];                /* what y is multiplied by, and for n = 2 the other unknown */
+    bool second;                  /* of order two, or y = u v and u and v satisfy */
+    nh_named_equation root, tidy; /* tidy: the same, shorter where common factors cancel */
+    size_t length;
+} candidate;
 
-double nh_named_typical(const nh_model *o, nh_ex s, nh_ex e)
+/* Currents of one equation, and the complexity of their formulas together. */
+typedef struct {
+    size_t count, length;
+    nh_ex phi[three];
+} found_currents;
+
+/* The value of a function of s at the middle of its sampling interval, with the parameters' values. */
+static double typical_value(void *context, nh_ex e)
 {
+    const seeker *x = context;
+    const nh_model *o = x->o;
     size_t at = 0;
-    while (o->chart->symbol[at] != s) at++;
+    while (o->chart->symbol[at] != x->s) at++;
     double middle = 0.52 * o->chart->low[at] + 0.48 * o->chart->high[at], out;
-    nh_tape *tape = nh_tape_create(o->dag, 1, &s, 1, &e, o->system->parameters, o->parameter, o->parameter_value);
+    nh_tape *tape = nh_tape_create(o->dag, 1, &x->s, 1, &e, o->system->parameters, o->parameter, o->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     nh_tape_eval(tape, work, &middle, &out);
     nh_tape_work_free(work);
@@ -51,213 +63,213 @@ double nh_named_typical(const nh_model *o, nh_ex s, nh_ex e)
     return out;
 }
 
-static double value_of(void *context, nh_ex e)
+/* ---- the equation ---- */
+
+static nh_ex shortened(const seeker *x, nh_ex e) { return nh_simplify_short(x->d, e, 0); }
+
+static nh_ex lead_of(const seeker *x, const nh_named_block *b, size_t j)
 {
-    const seeker *x = context;
-    return nh_named_typical(x->o, x->s, e);
+    nh_ex lead = nh_int(x->d, 0);
+    for (size_t i = 0; i < x->words; i++) lead = nh_add(x->d, lead, nh_mul(x->d, b->T[i][j], x->word[i]));
+    return shortened(x, lead);
 }
 
-static bool depends_on_s_alone(const seeker *x, nh_ex e)
+/* The rows of V and the coefficients c; false where they are long, or y satisfies an equation of lower order. */
+static bool find_equation(const seeker *x, candidate *e)
 {
-    for (size_t j = 0; j < x->o->width; j++)
-        if (x->o->chart->symbol[j] != x->s && nh_depends(x->o->dag, e, x->o->chart->symbol[j])) return false;
-    return true;
-}
-
-/* Row i of A, where Gamma(whole i) is pace times something linear in the words:
- * its derivatives at pace = 1 say what. */
-static bool row(seeker *x, size_t i)
-{
-    nh_dag *d = x->o->dag;
-    nh_ex rate = nh_model_gamma(x->o, x->whole[i]), rest = rate, one = nh_int(d, 1);
-    if (x->word[i] == x->pace || nh_complexity(d, rate) > longest) return false;
-    for (size_t j = 0; j < x->n; j++) {
-        nh_ex *a = &x->A[i * most_words + j], slope = nh_diff(d, rate, x->word[j]);
-        if (nh_kind_of(d, x->pace) == NH_SYMBOL) slope = nh_substitute(d, slope, 1, &x->pace, &one);
-        *a = nh_is_zero(d, slope) || x->word[j] == x->pace ? nh_int(d, 0) : nh_simplify(d, slope);
-        if (!depends_on_s_alone(x, *a) || nh_complexity(d, *a) > longest_entry) return false;
-        rest = nh_sub(d, rest, nh_product(d, 3, (nh_ex[]){x->pace, *a, x->whole[j]}));
+    nh_dag *d = x->d;
+    size_t n = e->order, longest = x->words == 2 ? longest_of_two : longest_of_many;
+    for (size_t k = 0; k < n; k++) e->V[k] = nh_int(d, k == e->y);
+    for (size_t r = 0; r < n; r++)
+        for (size_t k = 0; k < n; k++) {
+            nh_ex v = nh_diff(d, e->V[r * n + k], x->s);
+            for (size_t i = 0; i < n; i++) v = nh_add(d, v, nh_mul(d, e->V[r * n + i], e->block->A[i][k]));
+            e->V[(r + 1) * n + k] = v = shortened(x, v);
+            if (nh_complexity(d, v) > longest) return false;
+        }
+    e->det = shortened(x, nh_solve_determinant(d, n, e->V));
+    if (nh_complexity(d, e->det) > longest || nh_normal_is_zero(d, e->det, 0) != NH_NONZERO) return false;
+    for (size_t k = 0; k < n; k++) {
+        nh_ex m[three * three];
+        memcpy(m, e->V, n * n * sizeof *m);
+        memcpy(m + k * n, e->V + n * n, n * sizeof *m);
+        e->c[k] = shortened(x, nh_div(d, shortened(x, nh_solve_determinant(d, n, m)), e->det));
+        if (nh_complexity(d, e->c[k]) > longest) return false;
     }
-    return nh_normal_is_zero(d, rest, 0) == NH_ZERO;
-}
-
-/* Are the rates of words i and j combinations of these two, at least one of them with the other word? */
-static bool is_pair(const seeker *x, size_t i, size_t j)
-{
-    const nh_dag *d = x->o->dag;
-    if (!x->closed[i] || !x->closed[j]) return false;
-    for (size_t k = 0; k < x->n; k++)
-        if (k != i && k != j && !(nh_is_zero(d, x->A[i * most_words + k]) && nh_is_zero(d, x->A[j * most_words + k])))
-            return false;
-    return !nh_is_zero(d, x->A[i * most_words + j]) || !nh_is_zero(d, x->A[j * most_words + i]);
-}
-
-/* A form e[0] a + e[1] b of two words. */
-typedef struct {
-    nh_ex e[2], whole;
-} linear_form;
-
-typedef struct {
-    nh_ex entry[2][2];
-} square;
-
-static nh_ex times(nh_dag *d, nh_ex a, nh_ex b, nh_ex c, nh_ex e)
-{
-    return nh_add(d, nh_mul(d, a, b), nh_mul(d, c, e));
-}
-
-/* A of the words i and j for the forms u = F_0, v = F_1 instead of them: (F' +
- * F A) F^-1. */
-static square in_forms(const seeker *x, size_t i, size_t j, const linear_form *u, const linear_form *v)
-{
-    nh_dag *d = x->o->dag;
-    const nh_ex A[2][2] = {{x->A[i * most_words + i], x->A[i * most_words + j]},
-                           {x->A[j * most_words + i], x->A[j * most_words + j]}};
-    const nh_ex F[2][2] = {{u->e[0], u->e[1]}, {v->e[0], v->e[1]}};
-    nh_ex det = nh_sub(d, nh_mul(d, F[0][0], F[1][1]), nh_mul(d, F[0][1], F[1][0]));
-    const nh_ex inverse[2][2] = {{F[1][1], nh_neg(d, F[0][1])}, {nh_neg(d, F[1][0]), F[0][0]}};
-    square out;
-    nh_ex left[2][2];
-    for (int k = 0; k < 2; k++)
-        for (int l = 0; l < 2; l++)
-            left[k][l] = nh_add(d, nh_diff(d, F[k][l], x->s), times(d, F[k][0], A[0][l], F[k][1], A[1][l]));
-    for (int k = 0; k < 2; k++)
-        for (int l = 0; l < 2; l++)
-            out.entry[k][l] = simple(x, nh_div(d, times(d, left[k][0], inverse[0][l], left[k][1], inverse[1][l]), det));
-    return out;
-}
-
-/* (31) for f, the coefficient of the first form, with h that of the second: f'
- * = a f + b h. */
-typedef struct {
-    nh_named_equation equation, tidy; /* tidy: the same, shorter where common factors cancel */
-    nh_ex a, b;
-    const linear_form *first, *second;
-} elimination;
-
-/* False where f satisfies an equation of first order alone. */
-static bool eliminate(const seeker *x, size_t i, size_t j, elimination *out)
-{
-    nh_dag *d = x->o->dag;
-    square A = in_forms(x, i, j, out->first, out->second);
-    nh_ex a = nh_neg(d, A.entry[0][0]), b = nh_neg(d, A.entry[1][0]), c = nh_neg(d, A.entry[0][1]),
-          e = nh_neg(d, A.entry[1][1]);
-    if (nh_is_zero(d, b)) return false;
-    nh_ex ratio = nh_div(d, nh_diff(d, b, x->s), b); /* f'' = (a + e + b'/b) f' + (a' - a b'/b + b c - a e) f */
-    nh_ex q =
-        nh_add(d, nh_sub(d, nh_diff(d, a, x->s), nh_mul(d, a, ratio)), nh_sub(d, nh_mul(d, b, c), nh_mul(d, a, e)));
-    nh_ex p = simple(x, nh_add(d, nh_add(d, a, e), ratio));
-    q = simple(x, q);
-    out->equation = (nh_named_equation){x->s, p, q, x->s};
-    out->tidy = (nh_named_equation){x->s, nh_named_tidy(d, p, x->s), nh_named_tidy(d, q, x->s), x->s};
-    if (nh_complexity(d, p) > 2 * longest_entry || nh_complexity(d, q) > 4 * longest_entry) return false;
-    out->a = a;
-    out->b = b;
     return true;
 }
 
-/* Currents of one equation. */
-typedef struct {
-    size_t count, length; /* complexity of their formulas together */
-    nh_ex phi[2];
-} found;
-
-/* Keeps a current when it is proved. */
-static void keep(const seeker *x, found *f, nh_ex phi)
+/* (31), or (32): is it a symmetric square? */
+static void find_root(const seeker *x, candidate *e)
 {
-    nh_dag *d = x->o->dag;
-    if (f->count == 2 || (f->count && f->phi[0] == phi) ||
-        nh_normal_is_zero(d, nh_model_gamma(x->o, phi), 0) != NH_ZERO)
-        return;
+    nh_dag *d = x->d;
+    nh_ex P = e->c[1], Q = e->c[0];
+    e->second = true;
+    if (e->order == three) {
+        P = shortened(x, nh_mul(d, e->c[2], nh_ratio(d, 1, three)));
+        nh_ex twice = nh_mul(d, nh_int(d, 2), nh_powi(d, P, 2));
+        Q = nh_add(d, nh_sub(d, e->c[1], nh_diff(d, P, x->s)), twice);
+        Q = shortened(x, nh_mul(d, nh_ratio(d, 1, 4), Q));
+        nh_ex product = nh_product(d, three, (nh_ex[]){nh_int(d, 4), P, Q});
+        nh_ex r = nh_sub(d, nh_mul(d, nh_int(d, 2), nh_diff(d, Q, x->s)), product);
+        e->second = nh_normal_is_zero(d, nh_sub(d, r, e->c[0]), 0) == NH_ZERO;
+    }
+    e->root = (nh_named_equation){x->s, P, Q, x->s};
+    e->tidy = (nh_named_equation){x->s, nh_named_tidy(d, P, x->s), nh_named_tidy(d, Q, x->s), x->s};
+}
+
+static bool make_candidate(const seeker *x, const nh_named_block *b, size_t y, candidate *e)
+{
+    nh_dag *d = x->d;
+    *e = (candidate){.block = b, .order = b->order, .y = y};
+    if (!find_equation(x, e)) return false;
+    find_root(x, e);
+    e->lead[0] = lead_of(x, b, y);
+    if (e->order == 2) e->lead[1] = lead_of(x, b, 1 - y);
+    e->length = nh_complexity(d, e->lead[0]);
+    if (e->order == 2) e->length += nh_complexity(d, e->tidy.p) + nh_complexity(d, e->tidy.q);
+    for (size_t k = 0; k < e->order && e->order > 2; k++) e->length += nh_complexity(d, e->c[k]);
+    return true;
+}
+
+/* ---- currents ---- */
+
+/* The current in which the unknown is y; kept when it is proved. */
+static void keep_current(const seeker *x, const candidate *e, nh_ex y, found_currents *f)
+{
+    nh_dag *d = x->d;
+    size_t n = e->order;
+    nh_ex Y[three] = {y}, phi = nh_int(d, 0);
+    for (size_t k = 1; k < n; k++) Y[k] = nh_diff(d, Y[k - 1], x->s);
+    for (size_t k = 0; k < n; k++) {
+        nh_ex m[three * three], g = y;
+        memcpy(m, e->V, n * n * sizeof *m);
+        for (size_t i = 0; i < n; i++) m[i * n + k] = Y[i];
+        if (k != e->y) g = shortened(x, nh_div(d, nh_solve_determinant(d, n, m), e->det));
+        if (!isfinite(typical_value((void *)x, g))) return;
+        for (size_t i = 0; i < x->words; i++)
+            phi = nh_add(d, phi, nh_product(d, 3, (nh_ex[]){e->block->T[i][k], g, x->word[i]}));
+    }
+    if (f->count == three || (f->count && f->phi[0] == phi)) return;
+    if (nh_normal_is_zero(d, nh_model_gamma(x->o, phi), 0) != NH_ZERO) return;
     f->length += nh_complexity(d, phi);
     f->phi[f->count++] = phi;
 }
 
 /* The currents of one equation, in the first variable in which it matches. */
-static found match(seeker *x, const elimination *e, const nh_named_equation *equation)
+static found_currents match_equation(seeker *x, const candidate *e, const nh_named_equation *equation)
 {
-    nh_dag *d = x->o->dag;
     nh_named_equation changed[NH_MOST_EQUATIONS];
     nh_ex u[2];
-    found f = {0};
-    size_t n = nh_named_variables(d, equation, changed);
+    found_currents f = {0};
+    size_t n = nh_named_variables(x->d, equation, changed);
     for (size_t k = 0; k < n && !f.count; k++) {
-        size_t solutions = nh_named_match(d, &changed[k], value_of, x, u);
-        for (size_t i = 0; i < solutions; i++) {
-            nh_ex slope = nh_diff(d, u[i], x->s),
-                  h = simple(x, nh_div(d, nh_sub(d, slope, nh_mul(d, e->a, u[i])), e->b));
-            if (isfinite(value_of(x, u[i])) && isfinite(value_of(x, h)))
-                keep(x, &f, times(d, u[i], e->first->whole, h, e->second->whole));
-        }
+        size_t solutions = nh_named_match(x->d, &changed[k], typical_value, x, u);
+        if (e->order == 2)
+            for (size_t i = 0; i < solutions; i++) keep_current(x, e, u[i], &f);
+        else if (solutions == 2)
+            for (size_t i = 0; i < three; i++) keep_current(x, e, nh_mul(x->d, u[i / 2], u[(i + 1) / 2]), &f);
     }
     return f;
 }
 
-static size_t length_of(const seeker *x, const elimination *e)
+static found_currents match_candidate(seeker *x, const candidate *e)
 {
-    return nh_complexity(x->o->dag, e->tidy.p) + nh_complexity(x->o->dag, e->tidy.q) +
-           nh_complexity(x->o->dag, e->first->whole);
+    found_currents f = {0};
+    if (!e->second) return f;
+    f = match_equation(x, e, &e->root);
+    if (!f.count && (e->tidy.p != e->root.p || e->tidy.q != e->root.q)) f = match_equation(x, e, &e->tidy);
+    return f;
 }
 
-/* The equation in words where no name is known; NULL where that is too long. */
-static const char *text_of(const seeker *x, const elimination *e)
+/* ---- the equation in words ---- */
+
+/* " = (p)*f'' + .." */
+static void put_right(const seeker *x, size_t count, const nh_ex *c, const char *const *of, nh_text *out)
 {
-    nh_dag *d = x->o->dag;
-    const char *out = NULL, *s = nh_name_of(d, x->s);
-    if (length_of(x, e) > longest_shown) return NULL;
-    char *p = nh_print_string(d, e->tidy.p), *q = nh_print_string(d, e->tidy.q),
-         *first = nh_print_string(d, e->first->whole), *second = nh_print_string(d, e->second->whole);
-    bool slope = !nh_is_zero(d, e->tidy.p);
-    out = nh_arena_printf(x->arena, "f(%s)*(%s) + h(%s)*(%s), f'' = %s%s%s(%s)*f", s, first, s, second,
-                          slope ? "(" : "", slope ? p : "", slope ? ")*f' + " : "", q);
-    nh_free(p);
-    nh_free(q);
-    nh_free(first);
-    nh_free(second);
+    const char *between = " = ";
+    for (size_t k = count; k-- > 0;) {
+        if (nh_is_zero(x->d, c[k])) continue;
+        char *e = nh_print_string(x->d, c[k]);
+        nh_text_addf(out, "%s(%s)*%s", between, e, of[k]);
+        between = " + ";
+        nh_free(e);
+    }
+}
+
+/* NULL where it is too long. */
+static const char *text_of(const seeker *x, const candidate *e)
+{
+    nh_text text;
+    const char *s = nh_name_of(x->d, x->s);
+    const nh_ex of_two[2] = {e->tidy.q, e->tidy.p};
+    if (e->length > longest_shown) return NULL;
+    nh_text_init(&text);
+    char *lead = nh_print_string(x->d, e->lead[0]), *other = e->order == 2 ? nh_print_string(x->d, e->lead[1]) : NULL;
+    nh_text_addf(&text, "f(%s)*(%s) + ", s, lead);
+    if (other) nh_text_addf(&text, "h(%s)*(%s), f''", s, other);
+    else nh_text_addf(&text, "..%s", e->second ? ", f = u*v with solutions u and v of u''" : ", f'''");
+    if (other) put_right(x, 2, of_two, (const char *const[]){"f", "f'"}, &text);
+    else if (e->second) put_right(x, 2, (nh_ex[]){e->root.q, e->root.p}, (const char *const[]){"u", "u'"}, &text);
+    else put_right(x, three, e->c, (const char *const[]){"f", "f'", "f''"}, &text);
+    nh_free(lead);
+    nh_free(other);
+    const char *out = nh_arena_strdup(x->arena, nh_text_string(&text));
+    nh_text_clear(&text);
     return out;
 }
 
-/* The words i and j, and the given forms of these two words, none a multiple of another. */
-static size_t forms_of(const seeker *x, size_t i, size_t j, linear_form *out)
+/* ---- which words ---- */
+
+/* Of the equations tried for the same words: the currents, more of them first, then those with shorter formulas; and
+ * the shortest equation. */
+typedef struct {
+    found_currents best;
+    size_t length;
+    const char *text;
+} choice;
+
+static void try_unknown(seeker *x, const nh_named_block *b, size_t y, choice *c)
 {
-    nh_dag *d = x->o->dag;
-    const nh_ex one = nh_int(d, 1), zero = nh_int(d, 0), a = x->word[i], b = x->word[j];
-    size_t n = 2;
-    bool velocities = x->whole[i] == a && x->whole[j] == b;
-    out[0] = (linear_form){{one, zero}, x->whole[i]};
-    out[1] = (linear_form){{zero, one}, x->whole[j]};
-    for (size_t k = 0; k < x->forms && n < most_forms && velocities; k++) {
-        nh_ex whole = x->form[k];
-        if (!nh_depends(d, whole, a) || !nh_depends(d, whole, b) || nh_complexity(d, whole) > longest_form) continue;
-        linear_form f = {{simple(x, nh_diff(d, whole, a)), simple(x, nh_diff(d, whole, b))}, whole};
-        bool good = depends_on_s_alone(x, f.e[0]) && depends_on_s_alone(x, f.e[1]);
-        good = good && nh_normal_is_zero(d, nh_sub(d, whole, times(d, f.e[0], a, f.e[1], b)), 0) == NH_ZERO;
-        for (size_t l = 2; l < n && good; l++)
-            good = nh_normal_is_zero(d, nh_sub(d, nh_mul(d, f.e[0], out[l].e[1]), nh_mul(d, f.e[1], out[l].e[0])), 0) !=
-                   NH_ZERO;
-        if (good) out[n++] = f;
-    }
-    return n;
+    candidate e;
+    if (!make_candidate(x, b, y, &e)) return;
+    found_currents f = match_candidate(x, &e);
+    if (f.count > c->best.count || (f.count && f.count == c->best.count && f.length < c->best.length)) c->best = f;
+    if (c->length && e.length >= c->length) return;
+    c->length = e.length;
+    c->text = text_of(x, &e);
 }
 
-/* Takes the form whose equation gives more currents, or as many with shorter formulas. */
-static void seek(seeker *x, size_t i, size_t j)
+static void take_choice(seeker *x, const choice *c)
 {
-    linear_form list[most_forms];
-    size_t n = forms_of(x, i, j, list);
-    found best = {0};
-    elimination shortest = {0};
-    for (size_t u = 0; u < n; u++)
-        for (size_t v = 0; v < n; v++) {
-            elimination e = {.first = &list[u], .second = &list[v]};
-            if (u == v || !eliminate(x, i, j, &e)) continue;
-            found f = match(x, &e, &e.equation);
-            if (!f.count && (e.tidy.p != e.equation.p || e.tidy.q != e.equation.q)) f = match(x, &e, &e.tidy);
-            if (f.count > best.count || (f.count && f.count == best.count && f.length < best.length)) best = f;
-            if (!shortest.first || length_of(x, &e) < length_of(x, &shortest)) shortest = e;
+    if (!c->best.count && !x->open) x->open = c->text;
+    for (size_t k = 0; k < c->best.count && x->count < NH_MOST_NAMED; k++) x->out[x->count++] = c->best.phi[k];
+}
+
+/* No state but s and the symbols a and b. */
+static bool is_form_of(const seeker *x, nh_ex e, nh_ex a, nh_ex b)
+{
+    const nh_chart *c = x->o->chart;
+    for (size_t j = 0; j < x->o->width; j++)
+        if (c->symbol[j] != x->s && c->symbol[j] != a && c->symbol[j] != b && nh_depends(x->d, e, c->symbol[j]))
+            return false;
+    return nh_depends(x->d, e, a) && nh_depends(x->d, e, b) && nh_complexity(x->d, e) <= longest_form;
+}
+
+/* The currents with two of the words and their forms, in each order: the equation is that of the first one's
+ * coefficient. */
+static void try_pair(seeker *x, size_t count, const nh_ex *list, nh_named_block *block)
+{
+    choice c = {0};
+    x->words = 2;
+    for (size_t u = 0; u < count; u++)
+        for (size_t v = 0; v < count; v++) {
+            nh_ex pair[2] = {list[u], list[v]};
+            x->word = pair;
+            if (u != v && nh_named_blocks(x->o, x->s, 2, pair, longest_of_two, block) == 1)
+                try_unknown(x, block, 0, &c);
         }
-    if (!best.count && shortest.first && !x->open) x->open = text_of(x, &shortest);
-    for (size_t k = 0; k < best.count && x->count < NH_MOST_NAMED; k++) x->out[x->count++] = best.phi[k];
+    take_choice(x, &c);
 }
 
 static bool is_position(const nh_model *o, nh_ex symbol)
@@ -267,28 +279,48 @@ static bool is_position(const nh_model *o, nh_ex symbol)
     return s < o->m;
 }
 
+/* Pairs of symbols at least one of whose rates contains the other, and none of which is the rate of s. */
+static void try_pairs(seeker *x, size_t words, const nh_ex *word, size_t forms, const nh_ex *form,
+                      nh_named_block *block)
+{
+    nh_ex pace = nh_model_gamma(x->o, x->s), whole[NH_NAMED_WORDS], symbol[NH_NAMED_WORDS], rate[NH_NAMED_WORDS];
+    size_t n = 0;
+    for (size_t i = 0; i < words && n < NH_NAMED_WORDS; i++) {
+        if (nh_kind_of(x->d, word[i]) != NH_SYMBOL || word[i] == x->s || word[i] == pace) continue;
+        symbol[n] = word[i];
+        whole[n] = is_position(x->o, word[i]) ? nh_mul(x->d, word[i], pace) : word[i];
+        rate[n] = nh_model_gamma(x->o, whole[n]);
+        n++;
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i + 1; j < n; j++) {
+            nh_ex list[most_forms] = {whole[i], whole[j]};
+            size_t count = 2;
+            if (!nh_depends(x->d, rate[i], symbol[j]) && !nh_depends(x->d, rate[j], symbol[i])) continue;
+            for (size_t k = 0; k < forms && count < most_forms; k++)
+                if (whole[i] == symbol[i] && whole[j] == symbol[j] && is_form_of(x, form[k], symbol[i], symbol[j]))
+                    list[count++] = form[k];
+            try_pair(x, count, list, block);
+        }
+}
+
 size_t nh_named_coefficients(const nh_model *o, nh_ex variable, size_t words, const nh_ex *word, size_t forms,
                              const nh_ex *form, nh_arena *arena, nh_ex out[NH_MOST_NAMED], const char **open)
 {
-    seeker *x = nh_alloc(sizeof *x);
-    *x = (seeker){.o = o,
-                  .s = variable,
-                  .pace = nh_model_gamma(o, variable),
-                  .forms = forms,
-                  .form = form,
-                  .arena = arena,
-                  .out = out};
-    for (size_t i = 0; i < words && x->n < most_words; i++)
-        if (nh_kind_of(o->dag, word[i]) == NH_SYMBOL && word[i] != variable) {
-            x->whole[x->n] = is_position(o, word[i]) ? nh_mul(o->dag, word[i], x->pace) : word[i];
-            x->word[x->n++] = word[i];
+    seeker x = {.o = o, .d = o->dag, .s = variable, .arena = arena, .out = out};
+    nh_named_block *block = nh_alloc_array(NH_NAMED_WORDS, sizeof *block);
+    try_pairs(&x, words, word, forms, form, block);
+    if (!x.count && !x.open) {
+        x.words = words;
+        x.word = word;
+        size_t blocks = nh_named_blocks(o, variable, words, word, longest_of_many, block);
+        for (size_t k = 0; k < blocks; k++) {
+            choice c = {0};
+            for (size_t y = 0; y < block[k].order; y++) try_unknown(&x, &block[k], y, &c);
+            take_choice(&x, &c);
         }
-    for (size_t i = 0; i < x->n; i++) x->closed[i] = row(x, i);
-    for (size_t i = 0; i < x->n; i++)
-        for (size_t j = i + 1; j < x->n; j++)
-            if (is_pair(x, i, j)) seek(x, i, j);
-    size_t n = x->count;
-    *open = x->open;
-    nh_free(x);
-    return n;
+    }
+    nh_free(block);
+    *open = x.open;
+    return x.count;
 }

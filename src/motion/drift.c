@@ -19,17 +19,12 @@ static size_t outputs_between(const nh_model *o, const nh_motion *motion, nh_ex 
     return motion->count;
 }
 
-/* Number of outputs before the motion leaves the box of current k. */
+/* Number of outputs before the motion leaves the interval of current k. */
 static size_t outputs_inside(const nh_drift_question *q, const nh_motion *motion, size_t k)
 {
-    const nh_model *o = nh_dynamics_model(q->dynamics);
-    size_t count = motion->count;
-    for (size_t j = 0; q->valid && j < q->valid[k].variables; j++) {
-        const nh_valid *v = &q->valid[k];
-        size_t inside = outputs_between(o, motion, v->variable[j], v->low[j], v->high[j]);
-        if (inside < count) count = inside;
-    }
-    return count;
+    const nh_valid *v = q->valid ? &q->valid[k] : NULL;
+    if (!v || !v->variable) return motion->count;
+    return outputs_between(nh_dynamics_model(q->dynamics), motion, v->variable, v->low, v->high);
 }
 
 /* The change of a current along a motion in doubles, with its formula evaluated to many digits; NAN: not known. */

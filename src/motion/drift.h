@@ -3,7 +3,6 @@
 #define NH_DRIFT_H
 
 #include "base/option.h"
-#include "exact/ball_box.h"
 #include "motion/dynamics.h"
 
 enum { NH_DRIFT_RUNS = 3 };
@@ -23,11 +22,10 @@ typedef struct {
     bool explained;
 } nh_drift;
 
-/* Where a current is defined: while each of these variables lies between its low and high. */
+/* Where a current is defined: while the variable lies between low and high. */
 typedef struct {
-    size_t variables;                 /* 0: it holds everywhere */
-    nh_ex variable[NH_BOX_VARIABLES]; /* coordinates or t */
-    double low[NH_BOX_VARIABLES], high[NH_BOX_VARIABLES];
+    nh_ex variable; /* a coordinate or t; 0: it holds everywhere */
+    double low, high;
 } nh_valid;
 
 typedef struct {
@@ -37,7 +35,7 @@ typedef struct {
     const double *tolerance; /* NH_DRIFT_RUNS */
     size_t currents;
     const nh_ex *current;  /* of the chart */
-    const nh_valid *valid; /* `currents` boxes, or NULL */
+    const nh_valid *valid; /* `currents` intervals, or NULL */
 } nh_drift_question;
 
 /* Measures the drift along the motion of tolerance[which]; out has one entry for each current. */

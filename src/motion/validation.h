@@ -57,7 +57,7 @@ typedef struct {
     const nh_model *model, *other;
     size_t currents;
     const nh_ex *current;
-    const nh_valid *valid; /* `currents` boxes, or NULL */
+    const nh_valid *valid; /* `currents` intervals, or NULL */
     size_t watches;
     const nh_observable *watch;
     const nh_state *initial;

@@ -2,7 +2,6 @@
 #ifndef NH_ANALYSIS_H
 #define NH_ANALYSIS_H
 
-#include "exact/ball_box.h"
 #include "geometry/distribution.h"
 #include "count/completeness.h"
 #include "motion/validation.h"
@@ -15,20 +14,14 @@
 #include "integrals/unknowns.h"
 #include "problem/observables.h"
 
-/* Coefficient functions without closed form: Chebyshev series in one variable, a coordinate or t, valid in an interval
- * of it, or in several variables, valid on a box. */
+/* Coefficient functions without closed form: Chebyshev series in one variable, a coordinate or t, on an interval. */
 typedef struct {
-    size_t variables;
-    nh_ex variable[NH_BOX_VARIABLES];
-    double low[NH_BOX_VARIABLES], high[NH_BOX_VARIABLES];
-    size_t degree, words; /* the total degree */
-    nh_ex *word;          /* the functions that are multiplied by the series */
-    double *coefficient;  /* of term z for word i: coefficient[i * stride + z] */
+    nh_ex variable;
+    double low, high; /* the interval */
+    size_t degree, words;
+    nh_ex *word;         /* the functions that are multiplied by the series */
+    double *coefficient; /* of T_k for word i: coefficient[i * stride + k], k = 0 .. degree */
     size_t stride;
-    /* which product of T_k term z is: index[z * variables + j], stride x variables; NULL: T_z, z = 0 .. degree */
-    const unsigned char *index;
-    /* in several variables: |Gamma(Phi)| is at most this on the box, for velocities of the chart up to 1 */
-    double bound;
     const char *equation; /* a linear equation of second order that they satisfy; NULL: not known, or too long */
 } nh_series;
 

@@ -12,7 +12,6 @@
 #include "integrals/prove.h"
 #include "integrals/recognise.h"
 #include "integrals/refine.h"
-#include "integrals/sharpen.h"
 
 /* The factors of a product that are parameters. */
 static nh_ex parameters_in(const nh_model *o, nh_ex e)
@@ -142,7 +141,7 @@ static nh_refined refine_terms(const nh_model *o, const nh_candidate *c, const n
 {
     bool *leading = nh_alloc_array(c->count + 1, sizeof *leading);
     leading[c->pivot] = true;
-    nh_sharpen(o, c->count, c->term, c->coefficient, c->pivot, options);
+    nh_refine_numbers(o, c->count, c->term, c->coefficient, c->pivot, options);
     nh_refined better = nh_refine(o, c->count, c->term, leading, options);
     nh_free(leading);
     return better;

@@ -387,20 +387,13 @@ bool nh_currents_add_series(nh_current_checker *b, nh_ex phi, const nh_series *s
                             const char *meaning)
 {
     nh_analysis *r = b->result;
-    bool several = series->variables > 1;
-    nh_current f = {.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = !several, .refined = digits};
+    nh_current f = {.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = true, .refined = digits};
     if (nh_declared_unspecified(r->model->dag)) return false; /* of the stand-in */
     if (nh_currents_known(b, f.phi, f.proof.proved)) return false;
     f.heldout = heldout_residual(r->model, b->heldout, phi);
-    if (several) {
-        f.proof = (nh_proof){.digits = digits};
-        f.printed_digits = digits;
-        if (f.heldout > r->options.heldout) return false;
-    } else {
-        f.proof = nh_prove_current(r->model, phi, false, &r->options);
-        nh_coefficients_certify(&r->options, &f);
-        if (!keeps(b, &f, true)) return false;
-    }
+    f.proof = nh_prove_current(r->model, phi, false, &r->options);
+    nh_coefficients_certify(&r->options, &f);
+    if (!keeps(b, &f, true)) return false;
     nh_described_fill(b, &f);
     if (meaning) f.meaning = meaning;
     nh_current_list_append(r, &f);

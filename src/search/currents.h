@@ -52,8 +52,8 @@ const char *nh_currents_hold(nh_current_checker *bench, nh_current *found);
  * it a current everywhere (integrals/continued.h)?  Then it is replaced by that one. */
 bool nh_currents_continue(nh_current_checker *bench, nh_current *found);
 
-/* The same as nh_currents_add for a series, whose certificate was computed with it: for series in several variables
- * their bound is the certificate.  Nothing is added when it depends on earlier currents.  meaning: in words, or NULL. */
+/* The same as nh_currents_add for a series, which cancels to so many digits.  Nothing is added when it depends on
+ * earlier currents.  meaning: in words, or NULL. */
 bool nh_currents_add_series(nh_current_checker *bench, nh_ex phi, const nh_series *series, double digits,
                             const char *meaning);
 

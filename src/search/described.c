@@ -109,8 +109,7 @@ static bool is_local(const nh_model *o, const nh_points *points, nh_ex phi, cons
         const nh_coordinate *c = &o->system->coordinate[s];
         if (c->type != NH_ANGLE || c->counted || !nh_depends(d, phi, c->q)) continue;
         nh_ex here = c->q;
-        for (size_t j = 0; series && j < series->variables; j++)
-            if (series->variable[j] == c->q) here = nh_real(d, (series->low[j] + series->high[j]) / 2 - M_PI);
+        if (series && series->variable == c->q) here = nh_real(d, (series->low + series->high) / 2 - M_PI);
         nh_ex around = nh_add(d, here, turn);
         nh_ex pair[2] = {nh_substitute(d, phi, 1, &c->q, &here), nh_substitute(d, phi, 1, &c->q, &around)};
         double *value = nh_alloc_array(2 * points->count, sizeof *value), worst = 0, size = 0;

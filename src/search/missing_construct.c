@@ -251,7 +251,8 @@ static bool construct_up_to(search *s, const nh_completeness *c, manner how, dou
     return found;
 }
 
-bool nh_missing_adds_nothing(const nh_analysis *r, const nh_completeness *c)
+/* Is the number with time in the coefficients no larger than without? */
+static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
 {
     const nh_completeness *first = &r->completeness[NH_COMPLETE_IN_COORDINATES];
     return c != first && first->counted && first->missing_at == c->missing_at && c->missing_at &&
@@ -289,7 +290,7 @@ bool nh_missing_construct(search *s, const nh_completeness *c, bool further)
     double dearest = c->count.time ? 6 : 16, dearest_secular = 6,
            work = s->solver->r->options.construct * (further ? further_part : 1);
     bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) &&
-                              !nh_missing_adds_nothing(s->solver->r, c));
+                              !adds_nothing(s->solver->r, c));
     if (!wanted) return false;
     size_t degree = further ? c->incomplete_at : c->missing_at;
     nh_ex atom[NH_NAMING_ATOMS];

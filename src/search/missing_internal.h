@@ -49,9 +49,6 @@ typedef struct {
 /* How many currents may be proved: those in closed form, with room for more. */
 size_t nh_missing_most_proved(const nh_analysis *r);
 
-/* Is the number with time in the coefficients no larger than without? */
-bool nh_missing_adds_nothing(const nh_analysis *r, const nh_completeness *c);
-
 /* Tries one kind of coefficients; `further`: integrals that are functions of the currents, too.  Was one found? */
 bool nh_missing_construct(nh_missing_search *search, const nh_completeness *c, bool further);
 

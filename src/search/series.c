@@ -13,7 +13,7 @@
 #include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/function_series.h"
-#include "integrals/named_squares.h"
+#include "integrals/named_coefficients.h"
 #include "search/stage_solver.h"
 
 enum { most_words = 32, near_points = 24 };
@@ -100,10 +100,9 @@ static size_t keep(problem *p, const nh_series_space *space)
     size_t n = space->words * (space->degree + 1), added = 0;
     for (size_t k = 0; k < space->count && r->independent < r->local_maximum; k++) {
         nh_series *series = nh_arena_alloc(r->arena, sizeof *series);
-        *series = (nh_series){.variables = 1,
-                              .variable = {p->variable},
-                              .low = {space->low},
-                              .high = {space->high},
+        *series = (nh_series){.variable = p->variable,
+                              .low = space->low,
+                              .high = space->high,
                               .word = nh_arena_alloc(r->arena, space->words * sizeof(nh_ex)),
                               .coefficient = nh_arena_alloc(r->arena, n * sizeof(double)),
                               .stride = space->degree + 1,
@@ -156,7 +155,6 @@ static void named(problem *p, const char *what)
     if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == r->system->t)) return;
     size_t n = nh_named_coefficients(r->model, p->variable, p->words, p->word, p->x->words.forms, p->x->words.form,
                                      r->arena, phi, &p->equation);
-    if (!n && !p->equation) n = nh_named_squares(r->model, p->variable, p->words, p->word, r->arena, phi, &p->equation);
     if (!n) return;
     *family = (nh_family){.kind = NH_TERMS, .terms = n, .term = phi};
     const char *name = nh_arena_printf(r->arena, "%s with coefficients that are named functions of %s", what,
