@@ -23,7 +23,7 @@ static nh_analysis *ask_with(const char *text, double construct)
     char path[SCRATCH];
     cr_assert(scratch_text(path, text));
     nh_error error = {0};
-    nh_analyze_request request = {.system_path = path};
+    nh_request request = {.system_path = path};
     nh_options_default(&request.options);
     request.options.construct = construct;
     nh_analysis *r = nh_analysis_create(&request, &error);

@@ -23,7 +23,7 @@ static bool write_equations(const nh_request *q, nh_rates *e, nh_error *error)
 {
     e->system = nh_system_read(q->system_path, q->settings, q->setting, error);
     bool numbers = e->system && nh_system_needs_values(e->system, "the code", error);
-    nh_chart *chart = numbers ? nh_chart_create(e->system, q->velocities, (uint64_t)q->options.seed, error) : NULL;
+    nh_chart *chart = numbers ? nh_chart_create(e->system, q->chart, (uint64_t)q->options.seed, error) : NULL;
     e->model = chart ? nh_model_bare(e->system, chart) : NULL;
     if (!e->model || !nh_model_regular(e->model, error)) return false;
     e->bordered = nh_bordered_create(e->model);
