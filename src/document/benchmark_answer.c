@@ -89,10 +89,10 @@ void nh_benchmark_write_answer(const nh_benchmark *c, const nh_robustness *s, bo
     failures(c, out);
     where_they_fail(s, out);
     for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++)
-        nh_sheet_paragraph(0, 2, nh_arena_printf(c->arena, "Warning: %s", warning[i]), out);
+        nh_screen_paragraph(0, 2, nh_arena_printf(c->arena, "Warning: %s", warning[i]), out);
     if (c->partial)
-        nh_sheet_paragraph(0, 2, "Warning: the budget ended before every method had all its runs; --budget allows more",
-                           out);
+        nh_screen_paragraph(
+            0, 2, "Warning: the budget ended before every method had all its runs; --budget allows more", out);
     nh_screen_more(out, "all methods and runs, orders, derivatives, where methods fail",
                    "--svg FILE  time against error");
 }

@@ -4,7 +4,6 @@
 
 #include "base/memory.h"
 #include "document/facts.h"
-#include "document/notation.h"
 #include "document/pen.h"
 #include "document/typeset.h"
 
@@ -31,6 +30,15 @@ static const struct {
     [NH_PEN_CELL] = {"", NULL, ""},
     [NH_PEN_ROW_HEAD] = {"", NULL, ""},
     [NH_PEN_KIND] = {"", NULL, ""},
+    [NH_PEN_LETTERS] = {"$", NULL, "$"},
+    [NH_PEN_SUBTITLE] = {"", "\\subsubsection*{", ""},
+    [NH_PEN_REMARK] = {"", NULL, "\\par\n"},
+    [NH_PEN_FORMULA] = {"\\nhformula{", NULL, "}\n"},
+    [NH_PEN_NUMBER] = {"", NULL, "\\quad "},
+    [NH_PEN_LABEL] = {"", NULL, ""},
+    [NH_PEN_EQUALS] = {" = ", NULL, ""},
+    [NH_PEN_ZERO] = {"0", NULL, ""},
+    [NH_PEN_WHERE] = {"where\\par\n", NULL, ""},
 };
 
 static void begin(void *to, const char *what)
@@ -82,12 +90,27 @@ static void source(void *to, const char *formula)
     nh_text_clear(&latex);
 }
 
-static void letters(void *to, const char *label)
+static void add_markup(void *to, const char *text) { nh_tex_add(to, text); }
+
+static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
+{
+    (void)follows;
+    nh_text_addf(context, "%s\n", piece);
+}
+
+static void term(void *to, const nh_pen_term *t)
 {
     nh_tex_writer *w = to;
-    nh_tex_add(w, "$");
-    nh_notation_write(label, NH_NOTATION_LATEX, w->out);
-    nh_tex_add(w, "$");
+    const char *text = t->coefficient;
+    nh_tex_add(w, !t->first ? (t->minus ? "\\nhbreak - " : "\\nhbreak + ") : t->minus ? "-" : "");
+    nh_tex_add(w, t->sum ? "(" : "");
+    if (!text && t->wanted < 1e9) nh_text_addf(w->out, "(\\text{too long; -{}-option shown=%.0f shows it})", t->wanted);
+    else if (!text) nh_tex_add(w, "(\\text{too long for a page})");
+    else if (text[0] && !nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, w->out))
+        nh_tex_add(w, "(\\text{nested too deep})");
+    nh_tex_add(w, t->sum ? ")" : "");
+    nh_tex_add(w, t->factor[0] && text && text[0] ? "\\," : "");
+    nh_tex_add(w, t->factor);
 }
 
 static void equation(void *to, const char *label, const char *formula) { nh_tex_display(to, label, formula); }
@@ -122,11 +145,6 @@ static void formulas(void *to, size_t n, const char *const *label, const nh_ex *
     for (size_t i = 0; i < n; i++) nh_text_clear(&latex[i]);
     nh_free(shown);
     nh_free(latex);
-}
-
-static void sheet(void *to, nh_sheet *formulas_of, bool headed)
-{
-    nh_sheet_tex(formulas_of, headed ? "subsubsection" : "subsection", to);
 }
 
 /* The heads of the columns, under a line, on every page. */
@@ -202,6 +220,8 @@ static void end(void *to, const nh_run *run)
     nh_tex_add(w, w->fragment ? "\\par\\endgroup\n" : "\\par\\endgroup\n\\end{document}\n");
 }
 
-const nh_pen_ink nh_pen_tex = {false, false,     begin,  links,   open,     close,    words,    number,
-                               count, names,     source, letters, equation, code,     formulas, sheet,
-                               table, table_end, plot,   series,  NULL,     symmetry, glossary, end};
+const nh_pen_ink nh_pen_tex = {false,    false,      begin,     links,    open,
+                               close,    words,      number,    count,    names,
+                               source,   add_markup, term,      equation, code,
+                               formulas, table,      table_end, plot,     series,
+                               NULL,     symmetry,   glossary,  end,      NH_NOTATION_LATEX};

@@ -43,7 +43,7 @@ static void counterexample(nh_pen *p, const nh_verification *v)
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     if (of_field(v)) {
         nh_pen_say(p, "The condition that fails is ");
-        p->ink->letters(p->to, v->equation);
+        nh_pen_letters(p, v->equation);
         nh_pen_say(p, " = 0");
         if (v->equation_number)
             nh_pen_say(p, " (%s in Čech and Musilová, 2014)", nh_arena_printf(v->arena, "%zu", v->equation_number));
@@ -111,7 +111,7 @@ static void outside(nh_pen *p, const nh_verification *v)
         nh_pen_formula(p, nh_arena_printf(v->arena, "i_{Z} \\form^{%zu}", a + 1), v->form[a]);
         nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
         nh_pen_say(p, "where ");
-        p->ink->letters(p->to, nh_arena_printf(v->arena, "\\form^{%zu}", a + 1));
+        nh_pen_letters(p, nh_arena_printf(v->arena, "\\form^{%zu}", a + 1));
         nh_pen_say(p, " belongs to <%s>.", v->system->constraint[a].text);
         nh_pen_close(p, NH_PEN_WORDS);
     }
