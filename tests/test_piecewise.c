@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "catalogue.h"
-#include "document/analysis_answer.h"
+#include "document/analysis.h"
 #include "document/facts.h"
 #include "graph/diff.h"
 #include "graph/print.h"

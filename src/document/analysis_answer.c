@@ -1,4 +1,4 @@
-#include "document/analysis_answer.h"
+#include "document/analysis.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "document/analysis_outline_internal.h"
+#include "document/analysis_internal.h"
 #include "document/facts.h"
 #include "document/formula.h"
 #include "exact/normal.h"

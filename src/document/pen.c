@@ -383,7 +383,8 @@ void nh_pen_sheet(nh_pen *p, nh_sheet *s)
     for (size_t i = 0; i < s->sections; i++) {
         size_t own;
         nh_sheet_section c = nh_sheet_brief(s, i, &own);
-        if (c.title[0]) p->ink->open(p->to, p->headed ? NH_PEN_SUBTITLE : NH_PEN_HEADING, NULL, c.title);
+        nh_pen_part title = p->headed ? NH_PEN_SUBTITLE : NH_PEN_HEADING;
+        if (c.title[0]) p->ink->open(p->to, title, NULL, c.title), p->ink->close(p->to, title);
         if (c.words[0]) put_remark(p, c.words);
         for (size_t j = 0; j < c.lines; j++) {
             if (j == own) nh_pen_open(p, NH_PEN_WHERE, NULL, NULL);

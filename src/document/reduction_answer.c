@@ -1,4 +1,4 @@
-#include "document/reduction_answer.h"
+#include "document/reduction_internal.h"
 
 #include <math.h>
 #include <string.h>

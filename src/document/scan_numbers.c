@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "commands/analyze.h"
-#include "document/analysis_json.h"
+#include "document/analysis.h"
 #include "document/reduction.h"
 
 typedef struct {
