@@ -16,18 +16,10 @@ void nh_pen_begin(nh_pen *p, nh_pen_style style, const nh_pen_subject *s, const 
     double written = s->written > 0 ? s->written : INFINITY;
     *p = (nh_pen){.of = *s,
                   .style = style,
-                  .page = {.out = out,
-                           .system = s->system,
-                           .analysis = s->analysis,
-                           .dag = s->dag,
-                           .chart = s->chart,
-                           .shown = s->shown,
-                           .written = written},
+                  .page = {.out = out, .system = s->system, .dag = s->dag, .shown = s->shown, .written = written},
                   .tex = {.out = out,
                           .system = s->system,
-                          .analysis = s->analysis,
                           .dag = s->dag,
-                          .chart = s->chart,
                           .shown = s->shown,
                           .written = written,
                           .fragment = style.fragment},
@@ -303,7 +295,22 @@ void nh_pen_warning(nh_pen *p, const char *text)
     nh_pen_close(p, NH_PEN_WARNING);
 }
 
-void nh_pen_formula(nh_pen *p, const char *label, nh_ex e) { p->ink->formulas(p->to, 1, &label, &e); }
+void nh_pen_formula(nh_pen *p, const char *label, nh_ex e) { nh_pen_formulas(p, 1, &label, &e); }
+
+void nh_pen_formulas(nh_pen *p, size_t n, const char *const *label, const nh_ex *e)
+{
+    const nh_pen_subject *of = &p->of;
+    size_t one_list = 0, *names = p->style.form == NH_PEN_PAGE    ? &p->page.names
+                                  : p->style.form == NH_PEN_LATEX ? &p->tex.names
+                                                                  : &one_list;
+    nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
+    for (size_t i = 0; i < n; i++)
+        brief[i] = nh_formula_shortened(of->analysis, of->dag, of->chart ? nh_chart_shown(of->chart, e[i]) : e[i]);
+    nh_formula_list list = nh_formula_list_make(of->dag, n, brief, of->shown, names);
+    p->ink->formulas(p->to, &list, n, label, e);
+    nh_formula_list_clear(&list);
+    nh_free(brief);
+}
 
 bool nh_pen_is_name(const char *label) { return !label[strcspn(label, "\\{}<>[] =")]; }
 

@@ -10,6 +10,7 @@
 #define NH_PEN_H
 
 #include "document/form.h"
+#include "document/formula.h"
 #include "document/html_internal.h"
 #include "document/notation.h"
 #include "document/sheet.h"
@@ -79,8 +80,8 @@ typedef struct {
     void (*term)(void *to, const nh_pen_term *term);
     void (*equation)(void *to, const char *label, const char *formula); /* label = formula, as texts; label may be "" */
     void (*code)(void *to, const char *text);                           /* text as it is, on lines of its own */
-    /* Formulas that belong together; labels are names, or in the language of notation.h. */
-    void (*formulas)(void *to, size_t n, const char *const *label, const nh_ex *e);
+    /* Formulas e that belong together, as the list has them; labels are names, or in the language of notation.h. */
+    void (*formulas)(void *to, const nh_formula_list *list, size_t n, const char *const *label, const nh_ex *e);
     void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
     void (*table_end)(void *to);
     void (*plot)(void *to, nh_plot *plot, const char *caption);
@@ -181,7 +182,9 @@ void nh_pen_name_heading(nh_pen *pen, const char *id, const char *name);
 void nh_pen_code(nh_pen *pen, const char *text);
 void nh_pen_warning(nh_pen *pen, const char *text);
 void nh_pen_plot(nh_pen *pen, nh_plot *plot, const char *caption);
-/* label = e; the label is no name, but in the language of notation.h. */
+/* label = e for formulas that belong together, with the user's abbreviations and names for repeated parts; labels are
+ * names, or in the language of notation.h. */
+void nh_pen_formulas(nh_pen *pen, size_t n, const char *const *label, const nh_ex *e);
 void nh_pen_formula(nh_pen *pen, const char *label, nh_ex e);
 bool nh_pen_is_name(const char *label);
 

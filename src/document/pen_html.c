@@ -3,6 +3,8 @@
 #include "document/facts.h"
 #include "document/pen.h"
 #include "document/typeset.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 
 static const struct {
     /* text before the id or the title; before the title of a part that has one; at its end */
@@ -112,19 +114,67 @@ static void equation(void *to, const char *label, const char *formula)
 
 static void code(void *to, const char *text) { nh_html_tagged(to, "pre", text); }
 
-static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
+/* "", a name, or letters of the theory; and the sign behind it. */
+static void put_label(nh_html_writer *w, const char *label)
 {
-    nh_text *mathml = nh_alloc_array(n + 1, sizeof *mathml);
-    const char **shown = nh_alloc_array(n + 1, sizeof *shown);
-    for (size_t i = 0; i < n; i++) {
-        nh_text_init(&mathml[i]);
-        if (!nh_pen_is_name(label[i])) nh_notation_write(label[i], NH_NOTATION_MATHML, &mathml[i]);
-        shown[i] = mathml[i].length ? nh_text_string(&mathml[i]) : label[i];
+    if (!label[0]) return;
+    if (nh_pen_is_name(label)) nh_html_source(w, label);
+    else nh_html_letters(w, label), nh_html_add(w, " ");
+    nh_html_add(w, " <math><mo>=</mo></math> ");
+}
+
+static void put_formula(nh_html_writer *w, const char *label, nh_ex e)
+{
+    char *text = nh_print_string(w->dag, e);
+    open(w, NH_PEN_FORMULA, NULL, NULL);
+    put_label(w, label);
+    nh_html_source(w, text);
+    close(w, NH_PEN_FORMULA);
+    nh_free(text);
+}
+
+static void put_too_long(nh_html_writer *w, const char *label, nh_ex e, double wanted)
+{
+    bool known = (double)nh_complexity(w->dag, e) <= w->written;
+    nh_text words;
+    nh_text_init(&words);
+    nh_formula_left_out(wanted, &words);
+    open(w, NH_PEN_FORMULA, NULL, NULL);
+    put_label(w, label);
+    nh_html_tagged(w, "em", nh_text_string(&words));
+    nh_html_add(w, known ? "<em>; the JSON has it</em>" : "");
+    close(w, NH_PEN_FORMULA);
+    nh_text_clear(&words);
+}
+
+/* The formulas that are short enough, or the others, with the names that only they need. */
+static void put_list(nh_html_writer *w, const nh_formula_list *l, size_t n, const char *const *label, bool beside)
+{
+    bool any = false;
+    for (size_t i = 0; i < n; i++)
+        if (l->stands[i] && l->short_enough[i] == beside) put_formula(w, label[i], l->formula[i]);
+    for (size_t k = 0; k < l->parts; k++) {
+        if (!l->needed[k] || l->beside[k] != beside) continue;
+        if (!any) open(w, NH_PEN_WHERE, NULL, NULL);
+        any = true;
+        put_formula(w, l->part[k].name, l->part[k].value);
     }
-    nh_html_formulas(to, n, shown, e);
-    for (size_t i = 0; i < n; i++) nh_text_clear(&mathml[i]);
-    nh_free(shown);
-    nh_free(mathml);
+    if (any) close(w, NH_PEN_WHERE);
+}
+
+static void formulas(void *to, const nh_formula_list *l, size_t n, const char *const *label, const nh_ex *e)
+{
+    nh_html_writer *w = to;
+    size_t folded = 0;
+    put_list(w, l, n, label, true);
+    for (size_t i = 0; i < n; i++) {
+        folded += l->stands[i] && !l->short_enough[i];
+        if (!l->stands[i]) put_too_long(w, label[i], e[i], l->wanted);
+    }
+    if (!folded) return;
+    nh_text_addf(w->out, "<details><summary>%zu long formula%s</summary>\n", folded, folded > 1 ? "s" : "");
+    put_list(w, l, n, label, false);
+    nh_html_add(w, "</details>\n");
 }
 
 static void table(void *to, const char *caption, const char *heads) { nh_html_table(to, caption, heads); }

@@ -137,27 +137,21 @@ static void put_formula(nh_plain_writer *w, const char *label, char *value)
     nh_free(value);
 }
 
-static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
+static void formulas(void *to, const nh_formula_list *l, size_t n, const char *const *label, const nh_ex *e)
 {
     nh_plain_writer *w = to;
-    const nh_pen_subject *of = &w->of;
-    nh_dag *d = of->dag;
-    size_t names = 0;
+    nh_dag *d = w->of.dag;
     nh_text left_out;
+    (void)e;
     nh_text_init(&left_out);
-    nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
+    nh_formula_left_out(l->wanted, &left_out);
     for (size_t i = 0; i < n; i++)
-        brief[i] = nh_formula_shortened(of->analysis, d, of->chart ? nh_chart_shown(of->chart, e[i]) : e[i]);
-    nh_formula_list l = nh_formula_list_make(d, n, brief, of->shown, &names);
-    nh_formula_left_out(l.wanted, &left_out);
-    for (size_t i = 0; i < n; i++)
-        put_formula(w, label[i], l.stands[i] ? nh_print_string(d, l.formula[i]) : nh_strdup(nh_text_string(&left_out)));
-    if (l.named) open(w, NH_PEN_WHERE, NULL, NULL);
-    for (size_t k = 0; k < l.parts; k++)
-        if (l.needed[k]) put_formula(w, l.part[k].name, nh_print_string(d, l.part[k].value));
+        put_formula(w, label[i],
+                    l->stands[i] ? nh_print_string(d, l->formula[i]) : nh_strdup(nh_text_string(&left_out)));
+    if (l->named) open(w, NH_PEN_WHERE, NULL, NULL);
+    for (size_t k = 0; k < l->parts; k++)
+        if (l->needed[k]) put_formula(w, l->part[k].name, nh_print_string(d, l->part[k].value));
     nh_text_clear(&left_out);
-    nh_formula_list_clear(&l);
-    nh_free(brief);
 }
 
 /* ---- tables ---- */

@@ -6,6 +6,8 @@
 #include "document/facts.h"
 #include "document/pen.h"
 #include "document/typeset.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 
 static const struct {
     const char *open, *titled, *close; /* text before the title; before it where there is one; at the end of the part */
@@ -113,7 +115,32 @@ static void term(void *to, const nh_pen_term *t)
     nh_tex_add(w, t->factor);
 }
 
-static void equation(void *to, const char *label, const char *formula) { nh_tex_display(to, label, formula); }
+/* latex = text as a formula; where the text is no formula of the language, plain = text. */
+static void display(nh_tex_writer *w, const nh_text *latex, const char *plain, const char *text)
+{
+    nh_text formula;
+    nh_text_init(&formula);
+    if (nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, &formula)) {
+        nh_text_addf(w->out, latex->length ? "\\nhformula{%s = %s}\n" : "\\nhformula{%s%s}\n", nh_text_string(latex),
+                     nh_text_string(&formula));
+    } else { /* such as a formula that is nested too deep */
+        nh_tex_add(w, "\\par{\\footnotesize\\raggedright ");
+        nh_tex_code(w, plain);
+        nh_tex_add(w, plain[0] ? " = " : "");
+        nh_tex_code(w, text);
+        nh_tex_add(w, "\\par}\n");
+    }
+    nh_text_clear(&formula);
+}
+
+static void equation(void *to, const char *label, const char *formula)
+{
+    nh_text latex;
+    nh_text_init(&latex);
+    if (label[0]) nh_typeset(label, NH_LATEX, &latex);
+    display(to, &latex, label, formula);
+    nh_text_clear(&latex);
+}
 
 static void code(void *to, const char *text)
 {
@@ -121,30 +148,51 @@ static void code(void *to, const char *text)
     nh_tex_add(to, "\\par\n");
 }
 
-/* Words inside a formula. */
-static void put_text(nh_text *out, const char *words)
+/* A name, or words, or letters of the theory, within a formula. */
+static void put_label(const char *label, nh_text *out)
 {
     nh_tex_writer inner = {.out = out};
-    if (!words[0]) return;
-    nh_text_add(out, "\\text{");
-    nh_tex_words(&inner, words);
-    nh_text_add(out, "}");
+    if (!label[0]) return;
+    if (!nh_pen_is_name(label)) nh_notation_write(label, NH_NOTATION_LATEX, out);
+    else if (!nh_typeset(label, NH_LATEX, out))
+        nh_text_add(out, "\\text{"), nh_tex_words(&inner, label), nh_text_add(out, "}");
 }
 
-static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
+static void put_formula(nh_tex_writer *w, const char *label, nh_ex e)
 {
-    nh_text *latex = nh_alloc_array(n + 1, sizeof *latex);
-    const char **shown = nh_alloc_array(n + 1, sizeof *shown);
+    char *text = nh_print_string(w->dag, e);
+    nh_text latex;
+    nh_text_init(&latex);
+    put_label(label, &latex);
+    display(w, &latex, label, text);
+    nh_text_clear(&latex);
+    nh_free(text);
+}
+
+static void put_too_long(nh_tex_writer *w, const char *label, nh_ex e, double wanted)
+{
+    bool known = (double)nh_complexity(w->dag, e) <= w->written;
+    nh_text words;
+    nh_text_init(&words);
+    nh_formula_left_out(wanted, &words);
+    nh_tex_add(w, "\\par $");
+    put_label(label, w->out);
+    nh_tex_add(w, "$ = ");
+    nh_tex_words(w, nh_text_string(&words));
+    nh_text_addf(w->out, "%s.\\par\n", known ? "; the JSON has it" : "");
+    nh_text_clear(&words);
+}
+
+static void formulas(void *to, const nh_formula_list *l, size_t n, const char *const *label, const nh_ex *e)
+{
+    nh_tex_writer *w = to;
     for (size_t i = 0; i < n; i++) {
-        nh_text_init(&latex[i]);
-        if (!nh_pen_is_name(label[i])) nh_notation_write(label[i], NH_NOTATION_LATEX, &latex[i]);
-        else if (!nh_typeset(label[i], NH_LATEX, &latex[i])) put_text(&latex[i], label[i]);
-        shown[i] = nh_text_string(&latex[i]);
+        if (l->stands[i]) put_formula(w, label[i], l->formula[i]);
+        else put_too_long(w, label[i], e[i], l->wanted);
     }
-    nh_tex_formulas(to, n, shown, label, e);
-    for (size_t i = 0; i < n; i++) nh_text_clear(&latex[i]);
-    nh_free(shown);
-    nh_free(latex);
+    if (l->named) nh_tex_add(w, "\\par where\\par\n");
+    for (size_t k = 0; k < l->parts; k++)
+        if (l->needed[k]) put_formula(w, l->part[k].name, l->part[k].value);
 }
 
 /* The heads of the columns, under a line, on every page. */
@@ -193,13 +241,8 @@ static void series(void *to, const nh_time_series *motion)
     nh_tex_writer *w = to;
     nh_text rest;
     nh_text_init(&rest);
-    nh_html_writer page = {.out = &rest,
-                           .system = w->system,
-                           .analysis = w->analysis,
-                           .dag = w->dag,
-                           .shown = w->shown,
-                           .sink = draw,
-                           .context = w};
+    nh_html_writer page = {
+        .out = &rest, .system = w->system, .dag = w->dag, .shown = w->shown, .sink = draw, .context = w};
     nh_html_still(&page, motion);
     nh_html_plots(&page, motion);
     nh_text_clear(&rest);

@@ -188,7 +188,7 @@ static void components(nh_pen *p, const nh_verification *v)
         label[count] = nh_arena_printf(v->arena, "Z_{<%s>}", along);
         count += !nh_is_zero(v->model->dag, e[count]);
     }
-    p->ink->formulas(p->to, count, label, e);
+    nh_pen_formulas(p, count, label, e);
     if (!count) nh_pen_words(p, "It vanishes.");
     nh_free(e);
     nh_free(label);
