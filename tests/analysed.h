@@ -12,7 +12,7 @@ static inline nh_analysis *analysed_text(const char *text)
 {
     char path[SCRATCH];
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = path, .no_figures = true};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     cr_assert(scratch_text(path, text));

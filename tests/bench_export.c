@@ -106,7 +106,7 @@ static void measure(const char *name)
     char path[SCRATCH];
     nh_error error = {0};
     snprintf(path, sizeof path, "systems/%s.yaml", name);
-    nh_export_request q = {.command = "bench", .system_path = path, .of = "equations, submanifold"};
+    nh_request q = {.line = "bench", .system_path = path, .of = "equations, submanifold"};
     nh_options_default(&q.options);
     nh_export *x = nh_export_create(&q, &error);
     void *library = x ? compile(x, name) : NULL;

@@ -13,7 +13,7 @@
 static nh_simulation *move(const char *path, nh_error *error)
 {
     enum { steps = 2000 };
-    nh_simulate_request q = {.system_path = path, .draw = true};
+    nh_request q = {.system_path = path, .draw = true};
     nh_options_default(&q.options);
     nh_simulation *s = nh_simulation_create(&q, error);
     if (!s || !s->motion || s->motion->count < 2) return s;

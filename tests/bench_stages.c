@@ -194,7 +194,7 @@ static void child(const task *t, uint64_t mask, const result *all, FILE *out)
 {
     char analysis[200];
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = t->path, .left_out = mask & ~ANALYSIS, .seed_given = true};
+    nh_request q = {.system_path = t->path, .left_out = mask & ~ANALYSIS, .seed_given = true};
     snprintf(analysis, sizeof analysis, "analyses/%s.yaml", t->name);
     if (mask & ANALYSIS) q.analysis_path = analysis;
     nh_options_default(&q.options);

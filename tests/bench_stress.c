@@ -41,7 +41,7 @@ static nh_robustness *stress_of(const char *path, const char *over, double budge
 {
     nh_error error;
     nh_error_clear(&error);
-    nh_simulate_request q = {.system_path = path};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     nh_robustness *s = nh_robustness_create(&q, over, budget, &error);
     if (s) return s;

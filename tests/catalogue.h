@@ -173,7 +173,7 @@ static inline row compare_with(const char *path, const char *analysis, const nh_
     row o = {.rate = -INFINITY};
     nh_error error;
     nh_error_clear(&error);
-    nh_analyze_request q = {.system_path = path, .analysis_path = analysis, .options = *options, .seed_given = true};
+    nh_request q = {.system_path = path, .analysis_path = analysis, .documents = true, .options = *options, .seed_given = true};
     nh_analysis *r = nh_analysis_create(&q, &error);
     if (r) compare(r, &o);
     else {

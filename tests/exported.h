@@ -22,7 +22,7 @@ typedef struct {
 static inline nh_export *exported_make(const char *path, const char *of, const char *input)
 {
     nh_error error = {0};
-    nh_export_request q = {.command = "test", .system_path = path, .of = of, .input = input};
+    nh_request q = {.line = "test", .system_path = path, .of = of, .input = input};
     nh_options_default(&q.options);
     q.options.work = 30;
     q.options.count_work = 1e5;

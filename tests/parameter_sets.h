@@ -97,7 +97,7 @@ static inline const char *why_limited(const nh_current *f)
 static inline void add_analysis(formulas *f, const char *path, size_t settings, const nh_setting *setting, special_value special, const nh_options *options)
 {
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = path, .settings = settings, .setting = setting, .options = *options, .no_figures = true};
+    nh_request q = {.system_path = path, .settings = settings, .setting = setting, .options = *options};
     nh_analysis *r = nh_analysis_create(&q, &error);
     for (size_t k = 0; r && k < r->count; k++) {
         const nh_current *c = &r->found[k];
@@ -143,7 +143,7 @@ static inline void add_momenta(formulas *f, const nh_reduction *r, special_value
 static inline void add_reduction(formulas *f, const char *path, size_t settings, const nh_setting *setting, special_value special, const nh_options *options)
 {
     nh_error error = {0};
-    nh_reduce_request q = {.system_path = path, .settings = settings, .setting = setting, .options = *options};
+    nh_request q = {.system_path = path, .settings = settings, .setting = setting, .options = *options};
     nh_reduction *r = nh_reduction_create(&q, &error);
     char name[64];
     if (r && (r->all || r->group)) add_group(f, r, special);

@@ -67,7 +67,7 @@ static inline perturbed perturbed_copy(const char *folder, const char *name, siz
     nh_options options = *wanted;
     options.steps = 2000; /* the motions are not what is judged here */
     snprintf(from, sizeof from, "%s/%s.yaml", folder, name);
-    nh_analyze_request q = {.system_path = from, .options = options};
+    nh_request q = {.system_path = from, .options = options};
     nh_analysis *r = nh_analysis_create(&q, &error);
     FILE *out = r ? scratch_open(path) : NULL;
     if (!out) {

@@ -30,7 +30,7 @@ typedef struct {
 static inline reductions_row reductions_of(const char *path, size_t states, nh_error *error)
 {
     reductions_row all = {0};
-    nh_reduce_request q = {.system_path = path};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     nh_reduction *r = nh_reduction_create(&q, error);
     all.open = r && r->stages > 0 && r->group->action.d > 0;

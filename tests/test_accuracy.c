@@ -130,7 +130,7 @@ Test(accuracy, a_stiff_motion_gets_another_method)
 Test(accuracy, beyond_rounding_is_refused)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true, .accuracy = 1e-17};
+    nh_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true, .accuracy = 1e-17};
     nh_options_default(&q.options);
     nh_simulation *s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, "sleigh");
@@ -340,7 +340,7 @@ Test(accuracy, members_of_a_stiff_ensemble_are_computed_alone, WHOLE_ONLY)
 Test(accuracy, members_of_another_stay_in_batches)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/henon_heiles.yaml", .initial = "x=0.1, y'=0.2", .until_given = true, .accuracy = 1e-6, .ensemble = 300, .spread = 0.05};
+    nh_request q = {.system_path = "systems/henon_heiles.yaml", .initial = "x=0.1, y'=0.2", .until_given = true, .accuracy = 1e-6, .ensemble = 300, .spread = 0.05};
     nh_options_default(&q.options);
     nh_simulation *s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, "henon_heiles");
@@ -352,7 +352,7 @@ Test(accuracy, members_of_another_stay_in_batches)
 Test(accuracy, an_ensemble_says_when_it_is_not)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true, .accuracy = 1e-17, .ensemble = 5, .spread = 0.1};
+    nh_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true, .accuracy = 1e-17, .ensemble = 5, .spread = 0.1};
     nh_options_default(&q.options);
     nh_simulation *s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, "sleigh");

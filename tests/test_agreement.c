@@ -33,7 +33,7 @@ static nh_analysis *analysed(const task *q)
     cr_assert(scratch_text(system, text));
     snprintf(text, sizeof text, "name: sampled\nsystem: %s\nansatz:\n%s", system, q->ansatz);
     cr_assert(scratch_text(analysis, text));
-    nh_analyze_request request = {.system_path = system, .analysis_path = analysis};
+    nh_request request = {.system_path = system, .analysis_path = analysis, .documents = true};
     nh_options_default(&request.options);
     request.options.max_seconds = 1e6;
     nh_analysis *r = nh_analysis_create(&request, &error);

@@ -76,7 +76,7 @@ static nh_analysis *ask(question q)
 {
     nh_setting setting[3] = {{.name = "m"}, {.name = "a"}, {.name = "k"}};
     nh_error error = {0};
-    nh_analyze_request request = {.system_path = q.system, .analysis_path = q.analysis, .setting = setting, .chart = q.chart};
+    nh_request request = {.system_path = q.system, .analysis_path = q.analysis, .documents = true, .setting = setting, .chart = q.chart};
     if (q.analysis == QUESTION) request.analysis_path = alone(QUESTION);
     nh_options_default(&request.options);
     for (size_t i = 0; i < 3 && q.set; i++) setting[i].value = q.set[i];
@@ -656,7 +656,7 @@ Test(analyze, meanings_are_true, .timeout = 120)
 Test(analyze, series_of_the_rolling_disk, .timeout = 120, PLAIN_ONLY)
 {
     nh_error error = {0};
-    nh_analyze_request request = {.system_path = "systems/rolling_disk.yaml"};
+    nh_request request = {.system_path = "systems/rolling_disk.yaml"};
     nh_options_default(&request.options);
     request.options.named = 0;
     nh_analysis *r = nh_analysis_create(&request, &error);

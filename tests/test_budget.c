@@ -65,7 +65,7 @@ static nh_analysis *search(const char *system, double work, double seconds, doub
 {
     nh_error error;
     nh_error_clear(&error);
-    nh_analyze_request q = {.system_path = system, .no_figures = true};
+    nh_request q = {.system_path = system};
     nh_options_default(&q.options);
     q.options.work = work;
     q.options.max_seconds = seconds;

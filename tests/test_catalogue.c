@@ -61,7 +61,7 @@ Test(catalogue, the_energy_belongs_to_time, WHOLE_ONLY)
 {
     nh_error error;
     nh_error_clear(&error);
-    nh_analyze_request q = {.system_path = "systems/rattleback.yaml"};
+    nh_request q = {.system_path = "systems/rattleback.yaml"};
     nh_options_default(&q.options);
     q.options.max_seconds = patience;
     nh_analysis *r = nh_analysis_create(&q, &error);
@@ -79,7 +79,7 @@ Test(catalogue, the_multiplier_form_catches_what_is_not_conserved, PLAIN_ONLY)
 {
     nh_error error;
     nh_error_clear(&error);
-    nh_analyze_request q = {.system_path = "systems/appell_hamel.yaml"};
+    nh_request q = {.system_path = "systems/appell_hamel.yaml"};
     nh_options_default(&q.options);
     nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s", error.what);

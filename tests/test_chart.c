@@ -11,7 +11,7 @@
 static nh_benchmark *compare(const char *path, const char *initial, double until, double budget)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = path, .initial = initial, .until_given = true};
+    nh_request q = {.system_path = path, .initial = initial, .until_given = true};
     nh_options_default(&q.options);
     q.options.until = until;
     q.options.benchmark_columns = 40; /* of the discrete problem */
@@ -108,7 +108,7 @@ Test(chart, closed_forms_that_are_shipped_are_true, PLAIN_ONLY)
             must(nh_system_motions(system, &motions, &known, &error), &error, path);
             nh_system_free(system);
             if (!motions) continue;
-            nh_simulate_request q = {.system_path = path, .until_given = true};
+            nh_request q = {.system_path = path, .until_given = true};
             nh_options_default(&q.options);
             q.options.until = 9;
             nh_benchmark_work b; /* the reference only: nothing is measured */
@@ -155,7 +155,7 @@ Test(chart, no_two_methods_agree, WHOLE_ONLY)
 Test(chart, a_time_that_nobody_chose_is_shortened_until_two_methods_agree, WHOLE_ONLY)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};
+    nh_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};
     nh_options_default(&q.options);
     q.options.until = 60;
     nh_benchmark *c = nh_benchmark_run(&q, 1, &error);
@@ -168,7 +168,7 @@ Test(chart, a_time_that_nobody_chose_is_shortened_until_two_methods_agree, WHOLE
 Test(chart, a_very_fast_motion, PLAIN_ONLY)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "tests/data/ion.yaml"};
+    nh_request q = {.system_path = "tests/data/ion.yaml"};
     nh_options_default(&q.options);
     nh_benchmark *c = nh_benchmark_run(&q, 0.1, &error);
     must(c != NULL, &error, "ion");
@@ -303,7 +303,7 @@ Test(chart, the_discrete_problem, PLAIN_ONLY)
 Test(chart, thresholds_are_options, WHOLE_ONLY)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
+    nh_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
     nh_options_default(&q.options);
     q.options.until = 5;
     q.options.benchmark_error = 1e-9;
@@ -365,7 +365,7 @@ Test(chart, text_json_and_drawing, PLAIN_ONLY)
 Test(chart, what_cannot_be_computed_is_explained)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
+    nh_request q = {.system_path = "systems/sleigh.yaml", .initial = "omega=2", .until_given = true};
     nh_options_default(&q.options);
     q.options.until = 0;
     cr_expect_null(nh_benchmark_run(&q, 1, &error));
@@ -377,7 +377,7 @@ Test(chart, what_cannot_be_computed_is_explained)
 static nh_robustness *stress_of(const char *path, const char *initial, double until, double budget)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = path, .initial = initial, .until_given = true};
+    nh_request q = {.system_path = path, .initial = initial, .until_given = true};
     nh_options_default(&q.options);
     q.options.until = until;
     nh_robustness *s = nh_robustness_create(&q, NULL, budget, &error);
@@ -419,7 +419,7 @@ Test(chart, stress_calls_right_only_what_is, WHOLE_ONLY)
 Test(chart, stress_over_what_is_named, PLAIN_ONLY)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "phi=0.1, omega=2", .until_given = true};
+    nh_request q = {.system_path = "systems/sleigh.yaml", .initial = "phi=0.1, omega=2", .until_given = true};
     nh_options_default(&q.options);
     q.options.until = 3;
     nh_robustness *s = nh_robustness_create(&q, "a=1e-3:10:3, phi=0:6:4", 10, &error);
@@ -440,7 +440,7 @@ Test(chart, stress_over_what_is_named, PLAIN_ONLY)
 static void expect_no_map(const char *initial, const char *over, const char *what)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = initial};
+    nh_request q = {.system_path = "systems/sleigh.yaml", .initial = initial};
     nh_options_default(&q.options);
     cr_expect_null(nh_robustness_create(&q, over, 1, &error));
     cr_expect(strstr(error.what, what) && error.hint[0], "%s: %s", over, error.what);
@@ -495,7 +495,7 @@ Test(chart, named_methods_and_their_orders)
 {
     nh_error error = {0};
     const nh_method *const only[] = {nh_method_find("midpoint"), nh_method_find("midpoint-4"), nh_method_find("rkf45")};
-    nh_simulate_request q = {.system_path = "systems/nonholonomic_particle.yaml", .until_given = true, .methods = 3, .only = only};
+    nh_request q = {.system_path = "systems/nonholonomic_particle.yaml", .until_given = true, .methods = 3, .method = only};
     nh_options_default(&q.options);
     q.options.until = 4;
     nh_benchmark *c = nh_benchmark_run(&q, 1, &error);

@@ -170,7 +170,7 @@ Test(choice, reductions_count_too, PLAIN_ONLY)
     double effort[2];
     for (int i = 0; i < 2; i++) {
         nh_error error = {0};
-        nh_reduce_request q = {.system_path = "systems/sleigh.yaml", .accuracy = 1e-6};
+        nh_request q = {.system_path = "systems/sleigh.yaml", .accuracy = 1e-6};
         nh_options_default(&q.options);
         nh_reduction *r = nh_reduction_create(&q, &error);
         must(r != NULL, &error, "sleigh");

@@ -192,7 +192,7 @@ static nh_analysis *analysed(const char *text, nh_error *error)
     cr_assert_not_null(file);
     fputs(text, file);
     fclose(file);
-    nh_analyze_request q = {.system_path = "build/hidden_test.yaml"};
+    nh_request q = {.system_path = "build/hidden_test.yaml"};
     nh_options_default(&q.options);
     q.options.max_seconds = 60;
     return nh_analysis_create(&q, error);

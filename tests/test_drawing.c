@@ -263,7 +263,7 @@ static nh_simulation *moving(const char *path, const char *initial, double step,
 {
     nh_error error;
     nh_error_clear(&error);
-    nh_simulate_request q = {.system_path = path, .initial = initial, .draw = true, .step = step};
+    nh_request q = {.system_path = path, .initial = initial, .draw = true, .step = step};
     nh_options_default(&q.options);
     nh_simulation *s = nh_simulation_create(&q, &error);
     cr_assert_not_null(s, "%s", error.what);

@@ -22,7 +22,7 @@ static row judged(const char *path, const char *analysis, const char *name, doub
     nh_error error;
     nh_error_clear(&error);
     nh_setting setting = {.name = name, .value = value};
-    nh_analyze_request q = {.system_path = path, .analysis_path = analysis, .settings = name != NULL, .setting = &setting};
+    nh_request q = {.system_path = path, .analysis_path = analysis, .documents = true, .settings = name != NULL, .setting = &setting};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     nh_analysis *r = nh_analysis_create(&q, &error);

@@ -112,7 +112,7 @@ static void results_at_end(const nh_simulation *s, const nh_export *x, const nh_
 static void simulate(const char *path, exported *e)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = path, .until_given = true, .step = 0.1};
+    nh_request q = {.system_path = path, .until_given = true, .step = 0.1};
     nh_options_default(&q.options);
     q.options.until = 0.5;
     nh_simulation *s = nh_simulation_create(&q, &error);

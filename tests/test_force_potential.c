@@ -93,7 +93,7 @@ Test(force_potential, the_energy_without_it_is_a_current)
         char path[SCRATCH];
         nh_error error = {0};
         cr_assert(scratch_text(path, row[i].text));
-        nh_analyze_request request = {.system_path = path};
+        nh_request request = {.system_path = path};
         nh_options_default(&request.options);
         nh_analysis *r = nh_analysis_create(&request, &error);
         remove(path);

@@ -36,7 +36,7 @@ static void expect_these(const char *text, size_t currents, bool other_may_be_at
     FILE *out = scratch_open(path);
     cr_assert(out && fputs(text, out) >= 0 && fclose(out) == 0);
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = path};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     nh_analysis *r = nh_analysis_create(&q, &error);

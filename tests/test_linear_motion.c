@@ -105,7 +105,7 @@ static nh_analysis *ask(const char *text)
     char path[SCRATCH];
     nh_error error = {0};
     cr_assert(scratch_text(path, text));
-    nh_analyze_request request = {.system_path = path};
+    nh_request request = {.system_path = path};
     nh_options_default(&request.options);
     request.options.until = 0.5; /* motions are none of the question */
     nh_analysis *r = nh_analysis_create(&request, &error);
@@ -194,7 +194,7 @@ Test(linear_motion, drives_are_integrated)
         FILE *out = scratch_open(path);
         cr_assert(out && fputs(all, out) >= 0 && fclose(out) == 0);
         nh_error error = {0};
-        nh_analyze_request q = {.system_path = path};
+        nh_request q = {.system_path = path};
         nh_options_default(&q.options);
         nh_analysis *r = nh_analysis_create(&q, &error);
         remove(path);

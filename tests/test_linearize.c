@@ -12,7 +12,7 @@ static nh_linearized *asked(const char *system, const char *at, const char *over
 {
     char path[300];
     snprintf(path, sizeof path, strchr(system, '/') ? "%s" : "systems/%s.yaml", system);
-    nh_linearize_request q = {.system_path = path, .at = at, .over = over, .project = project};
+    nh_request q = {.system_path = path, .initial = at, .over = over, .project = project};
     nh_options_default(&q.options);
     nh_error_clear(error);
     return nh_linearize_create(&q, error);

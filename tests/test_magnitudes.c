@@ -15,7 +15,7 @@ static void expect_complete(const char *name, const char *text, size_t proved, s
     fprintf(out, "name: magnitudes\n%s", text);
     fclose(out);
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = path};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     nh_analysis *r = nh_analysis_create(&q, &error);

@@ -11,7 +11,7 @@
 static nh_analysis *ask(const char *path)
 {
     nh_error error = {0};
-    nh_analyze_request request = {.system_path = path};
+    nh_request request = {.system_path = path};
     nh_options_default(&request.options);
     request.options.until = 0.7;
     nh_analysis *r = nh_analysis_create(&request, &error);

@@ -42,7 +42,7 @@ static nh_analysis *analysed(const char *text)
     cr_assert_not_null(file);
     fputs(text, file);
     fclose(file);
-    nh_analyze_request q = {.system_path = "build/nonstandard_test.yaml"};
+    nh_request q = {.system_path = "build/nonstandard_test.yaml"};
     nh_options_default(&q.options);
     q.options.max_seconds = 60;
     nh_analysis *r = nh_analysis_create(&q, &error);

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "catalogue.h"
-#include "document/analysis_answer.h"
+#include "document/analysis.h"
 #include "document/facts.h"
 #include "graph/diff.h"
 #include "graph/print.h"
@@ -100,7 +100,7 @@ static nh_analysis *analysed(const char *text)
     cr_assert_not_null(out);
     fprintf(out, "name: piecewise\n%s", text);
     fclose(out);
-    nh_analyze_request q = {.system_path = path, .seed_given = true};
+    nh_request q = {.system_path = path, .seed_given = true};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     nh_analysis *r = nh_analysis_create(&q, &error);

@@ -14,7 +14,7 @@ static nh_analysis *analysed_with(const char *text, double construct_work, doubl
     fprintf(out, "name: published\n%s", text);
     fclose(out);
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = path};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     if (construct_work >= 0) q.options.construct = construct_work;

@@ -22,7 +22,7 @@
 static nh_analysis *ask_file_until(const char *path, double until)
 {
     nh_error error = {0};
-    nh_analyze_request request = {.system_path = path, .until_given = until > 0};
+    nh_request request = {.system_path = path, .until_given = until > 0};
     nh_options_default(&request.options);
     if (until > 0) request.options.until = until;
     nh_analysis *r = nh_analysis_create(&request, &error);

@@ -12,7 +12,7 @@
 
 static nh_reduction *reduce_path(const char *path, const char *group, const char *chain, const char *initial, uint64_t seed, nh_error *error)
 {
-    nh_reduce_request q = {.system_path = path, .group = group, .chain = chain, .initial = initial};
+    nh_request q = {.system_path = path, .group = group, .chain = chain, .initial = initial};
     nh_options_default(&q.options);
     q.options.seed = (double)seed;
     return nh_reduction_create(&q, error);
@@ -222,7 +222,7 @@ Test(reduce, velocities_off_the_constraints)
     nh_error error = {0};
     cr_expect(reduce_path("systems/sleigh_inertia.yaml", NULL, NULL, "h=0.3, x'=1, y'=1, h'=0.2", 1, &error) == NULL);
     cr_expect(strstr(error.what, "violate the constraints") != NULL, "%s", error.what);
-    nh_reduce_request q = {.system_path = "systems/sleigh_inertia.yaml", .initial = "h=0.3, x'=1, y'=1, h'=0.2", .project = true};
+    nh_request q = {.system_path = "systems/sleigh_inertia.yaml", .initial = "h=0.3, x'=1, y'=1, h'=0.2", .project = true};
     nh_options_default(&q.options);
     nh_error_clear(&error);
     nh_reduction *r = nh_reduction_create(&q, &error);

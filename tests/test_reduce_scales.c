@@ -89,7 +89,7 @@ static nh_reduction *reduced(const moving *s, const units *u, bool given)
     s->text(u, text, sizeof text);
     s->initial(u, initial, sizeof initial);
     cr_assert(scratch_text(path, text));
-    nh_reduce_request q = {.system_path = path, .initial = initial, .group = given ? s->group : NULL};
+    nh_request q = {.system_path = path, .initial = initial, .group = given ? s->group : NULL};
     nh_options_default(&q.options);
     q.options.until = 10 * u->time;
     nh_reduction *r = nh_reduction_create(&q, &error);
@@ -185,7 +185,7 @@ Test(reduce_scales, lengths_far_apart, PLAIN_ONLY)
             snprintf(text, sizeof text, "name: wheel\nparameters: [{name: r, value: %.17g}]\ncoordinates: [{name: th, type: angle}, {name: x, type: length}, {name: y, type: length}]\n"
                                         "lagrangian: 1/2*(r^2*th'^2 + x'^2 + y'^2)%s\n", radius[i], potential[j % 4]);
             cr_assert(scratch_text(path, text));
-            nh_reduce_request q = {.system_path = path, .weak = j >= 4};
+            nh_request q = {.system_path = path, .weak = j >= 4};
             nh_options_default(&q.options);
             nh_reduction *r = nh_reduction_create(&q, &error);
             remove(path);
@@ -210,7 +210,7 @@ Test(reduce_scales, a_rotation_beside_a_great_inertia)
         snprintf(text, sizeof text, "name: rotor\nparameters: [{name: J, value: %g}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: h, type: angle}]\n"
                                     "lagrangian: 1.3*(x'^2 + y'^2)/2 + J*h'^2/2 - (x^2 + y^2)\n", inertia[i]);
         cr_assert(scratch_text(path, text));
-        nh_reduce_request q = {.system_path = path};
+        nh_request q = {.system_path = path};
         nh_options_default(&q.options);
         nh_reduction *r = nh_reduction_create(&q, &error);
         remove(path);
@@ -231,7 +231,7 @@ Test(reduce_scales, velocities_off_the_constraints)
         sleigh_text(&one, text, sizeof text);
         snprintf(initial, sizeof initial, "h=0.3, x'=%.17g, y'=%.17g, h'=%.17g", size[i], size[i], 0.2 * size[i]);
         cr_assert(scratch_text(path, text));
-        nh_reduce_request q = {.system_path = path, .initial = initial};
+        nh_request q = {.system_path = path, .initial = initial};
         nh_options_default(&q.options);
         q.options.until = 10 / size[i] < 1e9 ? 10 / size[i] : 1e9;
         cr_expect_null(nh_reduction_create(&q, &error), "velocities of size %g are taken", size[i]);
@@ -253,7 +253,7 @@ Test(reduce_scales, nonlinear_constraint_in_small_units)
     cr_assert(scratch_text(path, "name: light\ncoordinates: [x, y, {name: p, type: angle}]\nlagrangian: 1e-18*(x'^2 + y'^2)/2 + p'^2/2\nconstraints: [\"y'^2 = x'^2 + 1e18*p'^2\"]\n"));
     for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
         nh_error error = {0};
-        nh_reduce_request q = {.system_path = path, .initial = of[i].initial};
+        nh_request q = {.system_path = path, .initial = of[i].initial};
         nh_options_default(&q.options);
         q.options.until = 1;
         nh_reduction *r = nh_reduction_create(&q, &error);

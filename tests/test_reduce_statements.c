@@ -39,7 +39,7 @@ static told tell_file(const char *path, size_t settings, const nh_setting *setti
 {
     told t;
     nh_error error = {0};
-    nh_reduce_request q = {.system_path = path, .settings = settings, .setting = setting};
+    nh_request q = {.system_path = path, .settings = settings, .setting = setting};
     nh_options_default(&q.options);
     t.r = nh_reduction_create(&q, &error);
     must(t.r != NULL, &error, path);
@@ -240,7 +240,7 @@ Test(reduce_statements, stages_that_are_local)
     char path[SCRATCH];
     cr_assert(scratch_text(path, text));
     nh_error error = {0};
-    nh_reduce_request q = {.system_path = path};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     nh_reduction *r = nh_reduction_create(&q, &error);
     remove(path);
@@ -309,7 +309,7 @@ static void refuses(const char *text, const char *words)
 {
     char path[SCRATCH];
     nh_error error = {0};
-    nh_reduce_request q = {.system_path = path};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     cr_assert(scratch_text(path, text));
     nh_reduction *r = nh_reduction_create(&q, &error);
@@ -364,7 +364,7 @@ Test(reduce_statements, symmetries_on_each_side_of_a_wall)
         nh_error error = {0};
         snprintf(text, sizeof text, "name: wall\ncoordinates: [x, y]\nlagrangian: %s\n", of[i].lagrangian);
         cr_assert(scratch_text(path, text));
-        nh_reduce_request q = {.system_path = path, .weak = of[i].weak};
+        nh_request q = {.system_path = path, .weak = of[i].weak};
         nh_options_default(&q.options);
         nh_reduction *r = nh_reduction_create(&q, &error);
         must(r != NULL, &error, text);

@@ -174,7 +174,7 @@ static nh_reduction *reduced(const known *k)
     char path[SCRATCH], *text = file_of(k);
     nh_error error = {0};
     cr_assert(scratch_text(path, text));
-    nh_reduce_request q = {.system_path = path, .weak = k->weak, .group = k->fields};
+    nh_request q = {.system_path = path, .weak = k->weak, .group = k->fields};
     nh_options_default(&q.options);
     nh_reduction *r = nh_reduction_create(&q, &error);
     must(r != NULL, &error, text);

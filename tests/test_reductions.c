@@ -17,7 +17,7 @@
 
 static nh_reduction *reduce_file(const char *path, const char *initial, nh_error *error)
 {
-    nh_reduce_request q = {.system_path = path, .initial = initial};
+    nh_request q = {.system_path = path, .initial = initial};
     nh_options_default(&q.options);
     return nh_reduction_create(&q, error);
 }
@@ -105,7 +105,7 @@ Test(reductions, drift_of_a_small_difference)
     static const char text[] = "name: s\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\nlagrangian: (x'^2 + y'^2)/2 + (x^2 + y^2)/2\n";
     char path[SCRATCH];
     nh_error error = {0};
-    nh_reduce_request q = {.system_path = path};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     q.options.until = 27;
     cr_assert(scratch_text(path, text));
@@ -313,7 +313,7 @@ Test(reductions, quotient_in_chart_and_frame)
 
 static nh_reduction *reduce_weak(const char *path, nh_error *error)
 {
-    nh_reduce_request q = {.system_path = path, .weak = true};
+    nh_request q = {.system_path = path, .weak = true};
     nh_options_default(&q.options);
     return nh_reduction_create(&q, error);
 }

@@ -38,7 +38,7 @@ typedef struct {
 static nh_analysis *analysis_of(const char *path, const nh_options *options, nh_chart_choice chart)
 {
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = path, .options = *options, .seed_given = true, .chart = chart};
+    nh_request q = {.system_path = path, .options = *options, .seed_given = true, .chart = chart};
     nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s: %s", path, error.what);
     return r;

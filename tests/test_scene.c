@@ -249,7 +249,7 @@ Test(scene, bodies_whose_masses_are_numbers)
 static nh_simulation *simulate_watching(const char *path, const char *initial, const char *watch, double accuracy)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = path, .initial = initial, .watch = watch, .step = 5, .accuracy = accuracy};
+    nh_request q = {.system_path = path, .initial = initial, .watch = watch, .step = 5, .accuracy = accuracy};
     nh_options_default(&q.options);
     nh_simulation *s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, path);
@@ -278,7 +278,7 @@ Test(scene, a_start_where_the_chart_ends)
     } all[] = {{"systems/knife_edge.yaml", "p=1.5707963267948966, y'=1"}, {"systems/sleigh.yaml", "phi=1.5707963267948966, y'=1"}};
     for (int i = 0; i < 2; i++) {
         nh_error error = {0};
-        nh_simulate_request q = {.system_path = all[i].path, .initial = all[i].initial, .watch = "y", .step = 5, .chart = NH_CHART_COORDINATES};
+        nh_request q = {.system_path = all[i].path, .initial = all[i].initial, .watch = "y", .step = 5, .chart = NH_CHART_COORDINATES};
         nh_options_default(&q.options);
         nh_simulation *s = nh_simulation_create(&q, &error);
         must(s != NULL, &error, all[i].path);
@@ -296,7 +296,7 @@ Test(scene, the_chart_that_keeps_fewest_states)
     fputs("name: mixed\ncoordinates: [{name: x}, {name: y}]\nlagrangian: (x'^2 + y'^2)/2 - x^2/2 - y^2\nvelocities: {names: [a, b], map: [\"x' = a + b\", \"y' = a - b\"]}\n", file);
     fclose(file);
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = path, .initial = "x=1, x'=0.5", .watch = "x", .until_given = true};
+    nh_request q = {.system_path = path, .initial = "x=1, x'=0.5", .watch = "x", .until_given = true};
     nh_options_default(&q.options);
     q.options.until = 2;
     nh_simulation *s = nh_simulation_create(&q, &error);
@@ -305,7 +305,7 @@ Test(scene, the_chart_that_keeps_fewest_states)
     size_t last = s->motion->count - 1;
     cr_expect_float_eq(s->value[last * s->columns.count], cos(2.0) + 0.5 * sin(2.0), 1e-8);
     nh_simulation_free(s);
-    q = (nh_simulate_request){.system_path = "systems/sleigh.yaml", .initial = "omega=2", .watch = "omega", .until_given = true, .options = q.options};
+    q = (nh_request){.system_path = "systems/sleigh.yaml", .initial = "omega=2", .watch = "omega", .until_given = true, .options = q.options};
     s = nh_simulation_create(&q, &error);
     must(s != NULL, &error, "sleigh");
     cr_expect(s->trajectory->scene->kept == 2 && s->model->chart->quasi, "%s", s->scene);
@@ -399,7 +399,7 @@ Test(scene, an_initial_position_astray)
                                     "lagrangian: 1/2*(x'^2 + y'^2) - g*y\nconstraints: [\"x^2 + y^2 = l^2\"]\n", l, l);
         snprintf(initial, sizeof initial, "x=%.17g, y=%.17g", 0.6 * l * (i % 2 ? 1.001 : 1), -0.8 * l);
         cr_assert(scratch_text(path, text));
-        nh_simulate_request q = {.system_path = path, .initial = initial, .step = 1};
+        nh_request q = {.system_path = path, .initial = initial, .step = 1};
         nh_options_default(&q.options);
         q.options.until = 1;
         nh_simulation *s = nh_simulation_create(&q, &error);

@@ -19,7 +19,7 @@ static nh_analysis *ask(const char *text)
     char path[SCRATCH];
     cr_assert(scratch_text(path, text));
     nh_error error = {0};
-    nh_analyze_request request = {.system_path = path};
+    nh_request request = {.system_path = path};
     nh_options_default(&request.options);
     request.options.named = 0; /* series also of functions that have names */
     nh_analysis *r = nh_analysis_create(&request, &error);

@@ -18,7 +18,7 @@ static nh_analysis *search(nh_text *text, double work)
     nh_error_clear(&error);
     cr_assert(scratch_text(path, nh_text_string(text)));
     nh_text_clear(text);
-    nh_analyze_request q = {.system_path = path, .no_figures = true};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6;
     q.options.steps = 10;

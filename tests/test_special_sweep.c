@@ -90,7 +90,7 @@ static nh_simulation *motion_from(const start *s, double tolerance, nh_error *er
 {
     char path[200];
     snprintf(path, sizeof path, "systems/%s.yaml", s->system);
-    nh_simulate_request q = {.system_path = path, .initial = s->initial, .until_given = true, .tolerance_given = true, .step = 1};
+    nh_request q = {.system_path = path, .initial = s->initial, .until_given = true, .tolerance_given = true, .step = 1};
     nh_options_default(&q.options);
     q.options.until = 1, q.options.tolerance = tolerance;
     nh_error_clear(error);

@@ -103,8 +103,8 @@ Test(starts, velocities_come_from_the_constraints_at_every_lean_and_steer)
 static nh_simulation *motion_of(const char *path, const char *initial, double until, const char *method, double rake, nh_error *error)
 {
     const nh_setting setting = {.name = "rake", .value = rake};
-    nh_simulate_request q = {
-        .system_path = path, .initial = initial, .until_given = true, .step = until / 4, .method = method ? nh_method_find(method) : NULL};
+    const nh_method *const only[] = {method ? nh_method_find(method) : NULL};
+    nh_request q = {.system_path = path, .initial = initial, .until_given = true, .step = until / 4, .methods = method != NULL, .method = only};
     if (rake >= 0) q.settings = 1, q.setting = &setting;
     nh_options_default(&q.options);
     q.options.until = until;

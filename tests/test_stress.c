@@ -12,7 +12,7 @@
 static nh_robustness *map_within(const char *path, const char *over, double steps, double budget)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = path};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     if (steps > 0) q.options.robustness_steps = steps;
     nh_robustness *s = nh_robustness_create(&q, over, budget, &error);
@@ -41,7 +41,7 @@ static size_t with_status(const nh_robustness_map *map, size_t method, nh_run_re
 Test(stress, no_reference_that_two_methods_do_not_confirm, WHOLE_ONLY)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};
+    nh_request q = {.system_path = "systems/double_pendulum.yaml", .initial = "p=2, q=2"};
     nh_options_default(&q.options);
     nh_robustness *s = nh_robustness_create(&q, "until=50:60:2", HUGE_VAL, &error);
     must(s != NULL, &error, "double_pendulum");
@@ -54,7 +54,7 @@ Test(stress, no_reference_that_two_methods_do_not_confirm, WHOLE_ONLY)
 Test(stress, a_plane_on_the_page)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/sleigh.yaml", .initial = "phi=0.1, omega=2", .until_given = true};
+    nh_request q = {.system_path = "systems/sleigh.yaml", .initial = "phi=0.1, omega=2", .until_given = true};
     nh_options_default(&q.options);
     q.options.until = 1;
     nh_benchmark *c = nh_benchmark_run(&q, 0.2, &error);
@@ -112,7 +112,7 @@ Test(stress, every_named_map_can_be_read)
 Test(stress, a_name_that_is_not_there)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = "systems/suslov.yaml"};
+    nh_request q = {.system_path = "systems/suslov.yaml"};
     nh_options_default(&q.options);
     cr_expect_null(nh_robustness_create(&q, "inertia", 1, &error));
     cr_expect(strstr(error.what, "neither a range nor a robustness map") && strstr(error.hint, "inertia ratios up to 1e6"), "%s: %s", error.what, error.hint);

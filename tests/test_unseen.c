@@ -18,7 +18,7 @@ static void expect_known(const unseen *u)
     fprintf(out, "name: unseen\n%s", u->text);
     fclose(out);
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = path, .seed_given = true};
+    nh_request q = {.system_path = path, .seed_given = true};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     nh_analysis *r = nh_analysis_create(&q, &error);
@@ -96,7 +96,7 @@ Test(unseen, linear_motion_that_is_driven_has_closed_forms, PLAIN_ONLY)
         fprintf(out, "name: driven\n%s", driven[i].text);
         fclose(out);
         nh_error error = {0};
-        nh_analyze_request q = {.system_path = path, .seed_given = true};
+        nh_request q = {.system_path = path, .seed_given = true};
         nh_options_default(&q.options);
         nh_analysis *r = nh_analysis_create(&q, &error);
         remove(path);
@@ -144,7 +144,7 @@ Test(unseen, stages_that_have_a_system_of_their_own)
         fprintf(out, "name: own\n%s", ROW[i].text);
         fclose(out);
         nh_error error = {0};
-        nh_analyze_request q = {.system_path = path, .seed_given = true};
+        nh_request q = {.system_path = path, .seed_given = true};
         nh_options_default(&q.options);
         nh_analysis *r = nh_analysis_create(&q, &error);
         remove(path);
@@ -163,7 +163,7 @@ Test(unseen, stages_that_have_a_system_of_their_own)
 static nh_analysis *analysed_without(const char *path, uint64_t left_out)
 {
     nh_error error = {0};
-    nh_analyze_request q = {.system_path = path, .seed_given = true, .left_out = left_out};
+    nh_request q = {.system_path = path, .seed_given = true, .left_out = left_out};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6;
     nh_analysis *r = nh_analysis_create(&q, &error);

@@ -195,7 +195,7 @@ Test(verify, wrong_questions_are_explained)
 static nh_simulation *motion(const char *initial, double until, double step, nh_chart_choice chart, nh_error *error)
 {
     nh_error_clear(error);
-    nh_simulate_request q = {.system_path = SLEIGH, .initial = initial, .until_given = true, .tolerance_given = true, .chart = chart, .step = step, .options = defaults()};
+    nh_request q = {.system_path = SLEIGH, .initial = initial, .until_given = true, .tolerance_given = true, .chart = chart, .step = step, .options = defaults()};
     q.options.until = until;
     return nh_simulation_create(&q, error);
 }
@@ -242,7 +242,7 @@ Test(simulate, a_motion_leaves_its_chart_and_its_branch, PLAIN_ONLY)
     static const char *const starts[] = {"x'=0.36, y'=0.48, z'=0.8", "x'=-0.1, y'=0.2", "x'=-0.1, y'=0.2, z'=0.97467943448089639"};
     for (size_t k = 0; k < 3; k++) {
         nh_error error = {0};
-        nh_simulate_request q = {.system_path = path, .initial = starts[k], .until_given = true, .tolerance_given = true, .step = 0.25, .options = defaults()};
+        nh_request q = {.system_path = path, .initial = starts[k], .until_given = true, .tolerance_given = true, .step = 0.25, .options = defaults()};
         q.options.until = 4;
         q.options.tolerance = 1e-11;
         nh_simulation *s = nh_simulation_create(&q, &error);
@@ -292,7 +292,7 @@ Test(verify, rounded_numbers, .timeout = 60)
 Test(simulate, watch_reads_a_list)
 {
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = SLEIGH, .initial = "omega=2", .until_given = true, .tolerance_given = true, .step = 1, .options = defaults(), .watch = "phi, T = m/2*v^2, atan2(v, omega)"};
+    nh_request q = {.system_path = SLEIGH, .initial = "omega=2", .until_given = true, .tolerance_given = true, .step = 1, .options = defaults(), .watch = "phi, T = m/2*v^2, atan2(v, omega)"};
     q.options.until = 3;
     nh_simulation *s = nh_simulation_create(&q, &error);
     cr_assert(s && s->columns.count == 3 && s->scene, "%s", error.what);
@@ -327,7 +327,7 @@ Test(simulate, symmetries_of_the_file_make_scenes_smaller)
     cr_assert(file >= 0 && write(file, text, strlen(text)) == (ssize_t)strlen(text));
     close(file);
     nh_error error = {0};
-    nh_simulate_request q = {.system_path = path, .initial = "x=1.2, y'=0.2", .until_given = true, .step = 1, .options = defaults(), .watch = "x^2 + y^2"};
+    nh_request q = {.system_path = path, .initial = "x=1.2, y'=0.2", .until_given = true, .step = 1, .options = defaults(), .watch = "x^2 + y^2"};
     static const double end[2] = {1, 20};
     static const size_t states[2] = {3, 4}; /* x does not stay positive for long */
     for (int i = 0; i < 2; i++) {

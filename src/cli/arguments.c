@@ -217,7 +217,6 @@ bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error)
     size_t most = (size_t)argc + 1; /* entries of lists, and operands */
     for (int i = 1; i < argc; i++)
         for (const char *c = argv[i]; *c; c++) most += *c == ',' || *c == ';';
-    cli->ask.setting = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.setting);
     cli->operand = nh_arena_alloc(cli->arena, most * sizeof *cli->operand);
     cli->ask.over_list = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.over_list);
     cli->ask.wheel = nh_arena_alloc(cli->arena, most * sizeof *cli->ask.wheel);

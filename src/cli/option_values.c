@@ -65,7 +65,7 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
     if (!assignment(cli, text, "set", &name, &value, error)) return false;
     double x;
     if (strchr(name, '(')) { /* of a function */
-        cli->ask.setting[cli->ask.settings++] = (nh_setting){.name = name, .input = value};
+        nh_request_setting(&cli->ask, (nh_setting){.name = name, .input = value});
         nh_request_typed(&cli->ask, "set", name, value);
         return true;
     }
@@ -73,7 +73,7 @@ static bool set_parameter(nh_cli *cli, const char *text, nh_error *error)
         nh_fail(error, NH_USAGE, "", "--set %s needs a number, found `%s`", name, value);
         return nh_error_hint_number(error, value);
     }
-    cli->ask.setting[cli->ask.settings++] = (nh_setting){.name = name, .value = x};
+    nh_request_setting(&cli->ask, (nh_setting){.name = name, .value = x});
     return true;
 }
 

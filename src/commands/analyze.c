@@ -37,7 +37,7 @@ static double lap(double *last)
 
 /* ---- reading ---- */
 
-static void merge_options(nh_analysis *r, const nh_analyze_request *q)
+static void merge_options(nh_analysis *r, const nh_request *q)
 {
     const nh_analysis_file *a = r->analysis;
     r->options = q->options;
@@ -49,7 +49,7 @@ static void merge_options(nh_analysis *r, const nh_analyze_request *q)
     if (a->has_until && !q->until_given) r->options.until = a->until;
 }
 
-static bool read_files(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
+static bool read_files(nh_analysis *r, const nh_request *q, nh_error *error)
 {
     if (q->analysis_path && !(r->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
     size_t own = r->analysis ? r->analysis->settings : 0;
@@ -238,7 +238,7 @@ static double end_of_motion(nh_analysis *r, const nh_state *initial)
     return end;
 }
 
-static void validate(nh_analysis *r, const nh_analyze_request *q)
+static void validate(nh_analysis *r, const nh_request *q)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
@@ -337,12 +337,12 @@ static void say_what_ended_it(nh_analysis *r)
                      option ? option : "");
 }
 
-static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
+static bool run(nh_analysis *r, const nh_request *q, nh_error *error)
 {
     double start = nh_clock(), clock = start;
     r->options = q->options;
     r->left_out = q->left_out;
-    r->command = q->command ? nh_arena_strdup(r->arena, q->command) : NULL;
+    r->command = q->line ? nh_arena_strdup(r->arena, q->line) : NULL;
     r->system_path = nh_arena_strdup(r->arena, q->system_path);
     if (q->system_words) r->system_words = nh_arena_strdup(r->arena, q->system_words);
     r->analysis_path = q->analysis_path ? nh_arena_strdup(r->arena, q->analysis_path) : NULL;
@@ -390,14 +390,14 @@ static bool run(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
     nh_progress("a motion to check it", -1);
     if (!nh_interrupted()) validate(r, q);
     if (!nh_interrupted() && q->equations) write_out(r);
-    if (!nh_interrupted() && !q->no_figures) nh_figures_compute(r, q, families, family);
+    if (!nh_interrupted() && q->documents) nh_figures_compute(r, q, families, family);
     if (nh_interrupted()) say_what_ended_it(r);
     r->timing.validation = lap(&clock);
     r->timing.total = nh_clock() - start;
     return true;
 }
 
-nh_analysis *nh_analysis_create(const nh_analyze_request *request, nh_error *error)
+nh_analysis *nh_analysis_create(const nh_request *request, nh_error *error)
 {
     nh_linalg_threads(1);
     nh_arena *arena = nh_arena_create();

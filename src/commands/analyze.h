@@ -4,10 +4,12 @@
 #ifndef NH_ANALYZE_H
 #define NH_ANALYZE_H
 
-#include "commands/analyze_request.h"
+#include "commands/choice.h"
+#include "commands/request.h"
+#include "search/analysis.h"
 
 /* Runs an analysis; the caller frees the result.  NULL with a message when nothing can be said; otherwise a result,
  * perhaps partial, with warnings. */
-nh_analysis *nh_analysis_create(const nh_analyze_request *request, nh_error *error);
+nh_analysis *nh_analysis_create(const nh_request *request, nh_error *error);
 
 #endif

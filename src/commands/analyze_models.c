@@ -11,7 +11,7 @@ static nh_model *model_of(const nh_analysis *r, nh_chart_choice choice, nh_error
 }
 
 /* An initial state on the other branch of a quadratic constraint chooses that branch. */
-static bool turn_to_initial(nh_analysis *r, nh_chart_choice choice, const nh_analyze_request *q, nh_error *error)
+static bool turn_to_initial(nh_analysis *r, nh_chart_choice choice, const nh_request *q, nh_error *error)
 {
     if (!r->analysis || !nh_analysis_file_resolve(r->analysis, r->model, error)) return !r->analysis;
     if (!r->analysis->has_initial || !nh_dynamics_other_branch(r->model, &r->analysis->initial)) return true;
@@ -79,7 +79,7 @@ static bool set_speeds(nh_analysis *r, nh_chart_choice choice, nh_error *error)
     return r->model != NULL;
 }
 
-bool nh_analyze_models(nh_analysis *r, const nh_analyze_request *q, nh_error *error)
+bool nh_analyze_models(nh_analysis *r, const nh_request *q, nh_error *error)
 {
     nh_chart_choice choice = q->chart != NH_CHART_AUTO || !r->analysis ? q->chart : r->analysis->chart;
     r->model = model_of(r, choice, error);

@@ -299,8 +299,8 @@ static void watch_charts(nh_benchmark_work *c)
     }
 }
 
-static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request, size_t coordinate, double turn,
-                       bool once, double budget, nh_error *error)
+static bool open_bench(nh_benchmark_work *c, const nh_request *request, size_t coordinate, double turn, bool once,
+                       double budget, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_benchmark *out = nh_arena_alloc(arena, sizeof *out);
@@ -314,7 +314,7 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
     out->arena = arena;
     out->methods = request->methods;
     const nh_method **only = nh_arena_alloc(arena, request->methods * sizeof *only);
-    for (size_t i = 0; i < request->methods; i++) only[i] = request->only[i];
+    for (size_t i = 0; i < request->methods; i++) only[i] = request->method[i];
     out->only = only; /* the caller's list may not outlive the result */
     out->question = nh_arena_alloc(arena, sizeof *out->question);
     out->question->arena = nh_arena_create();
@@ -344,13 +344,13 @@ static bool open_bench(nh_benchmark_work *c, const nh_simulate_request *request,
     return true;
 }
 
-bool nh_benchmark_work_open(nh_benchmark_work *c, const nh_simulate_request *request, double budget, nh_error *error)
+bool nh_benchmark_work_open(nh_benchmark_work *c, const nh_request *request, double budget, nh_error *error)
 {
     return open_bench(c, request, 0, 0, false, budget, error);
 }
 
-bool nh_benchmark_work_open_once(nh_benchmark_work *c, const nh_simulate_request *request, size_t coordinate,
-                                 double turn, double budget, nh_error *error)
+bool nh_benchmark_work_open_once(nh_benchmark_work *c, const nh_request *request, size_t coordinate, double turn,
+                                 double budget, nh_error *error)
 {
     return open_bench(c, request, coordinate, turn, true, budget, error);
 }
@@ -379,9 +379,9 @@ static void end_bench(nh_benchmark_work *c)
 
 /* A default final time may lie beyond a singularity, or be a million periods: it is halved, or divided by more where
  * not even an eighth was reached, until there is a motion. */
-static bool open_somewhere(nh_benchmark_work *c, const nh_simulate_request *request, double budget, nh_error *error)
+static bool open_somewhere(nh_benchmark_work *c, const nh_request *request, double budget, nh_error *error)
 {
-    nh_simulate_request q = *request;
+    nh_request q = *request;
     for (int i = 0; i < most_halvings; i++) {
         nh_error_clear(error);
         if (!nh_benchmark_work_open(c, &q, budget, error)) break;
@@ -405,7 +405,7 @@ static bool open_somewhere(nh_benchmark_work *c, const nh_simulate_request *requ
     return false;
 }
 
-nh_benchmark *nh_benchmark_run(const nh_simulate_request *request, double budget, nh_error *error)
+nh_benchmark *nh_benchmark_run(const nh_request *request, double budget, nh_error *error)
 {
     nh_benchmark_work c;
     if (!open_somewhere(&c, request, budget, error)) return NULL;

@@ -86,7 +86,7 @@ struct nh_benchmark {
 
 /* Compares the integrators; the caller frees the result.  `budget`: seconds for the measurements.  NULL with a message
  * when no motion can be computed. */
-nh_benchmark *nh_benchmark_run(const nh_simulate_request *request, double budget, nh_error *error);
+nh_benchmark *nh_benchmark_run(const nh_request *request, double budget, nh_error *error);
 void nh_benchmark_free(nh_benchmark *comparison);
 
 /* The word of text and page, and that of JSON, which is older and stays for the scripts that read it. */

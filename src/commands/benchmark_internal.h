@@ -116,12 +116,11 @@ typedef struct {
 } nh_benchmark_work;
 
 /* Opens the system, formulations and charts of a request; close it also on failure (and free `out`). */
-bool nh_benchmark_work_open(nh_benchmark_work *bench, const nh_simulate_request *request, double budget,
-                            nh_error *error);
+bool nh_benchmark_work_open(nh_benchmark_work *bench, const nh_request *request, double budget, nh_error *error);
 /* The same without repetitions, with at most options.robustness_steps steps per motion, one coordinate of the initial
  * state changed, and velocities that satisfy the constraints there. */
-bool nh_benchmark_work_open_once(nh_benchmark_work *bench, const nh_simulate_request *request, size_t coordinate,
-                                 double turn, double budget, nh_error *error);
+bool nh_benchmark_work_open_once(nh_benchmark_work *bench, const nh_request *request, size_t coordinate, double turn,
+                                 double budget, nh_error *error);
 void nh_benchmark_work_close(nh_benchmark_work *bench);
 /* The reference: in the chart; in all coordinates where the chart breaks down or the two methods disagree. */
 bool nh_benchmark_work_reference(nh_benchmark_work *bench, nh_error *error);
@@ -151,6 +150,6 @@ double nh_closed_off(nh_benchmark_work *bench, const nh_known_motions *closed, d
 void nh_known_motions_use(nh_benchmark_work *bench);
 
 /* Adds the stages of the system's reduction as further formulations, where there is time for it. */
-void nh_benchmark_reduced(nh_benchmark_work *bench, const nh_simulate_request *request);
+void nh_benchmark_reduced(nh_benchmark_work *bench, const nh_request *request);
 
 #endif

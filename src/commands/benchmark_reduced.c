@@ -32,20 +32,17 @@ static const char *initial_words(const nh_benchmark_work *c)
     return kept;
 }
 
-static nh_reduction *reduce(const nh_benchmark_work *c, const nh_simulate_request *q, nh_error *error)
+static nh_reduction *reduce(const nh_benchmark_work *c, const nh_request *q, nh_error *error)
 {
     const nh_analysis_file *a = c->out->question->analysis;
     size_t count = a ? a->settings : 0;
     nh_setting *setting = nh_arena_alloc(c->out->arena, (count + q->settings + 1) * sizeof *setting);
     if (count) memcpy(setting, a->setting, count * sizeof *setting);
     if (q->settings) memcpy(setting + count, q->setting, q->settings * sizeof *setting);
-    nh_reduce_request r = {.system_path = q->system_path,
-                           .settings = count + q->settings,
-                           .setting = setting,
-                           .chart = q->chart,
-                           .initial = initial_words(c),
-                           .project = true,
-                           .options = q->options};
+    nh_request r = *q;
+    r.settings += count, r.setting = setting;
+    r.initial = initial_words(c), r.project = true;
+    r.accuracy = 0;
     r.options.until = c->out->end - c->out->begin;
     nh_deadline_set(c->budget);
     nh_reduction *out = nh_reduction_create(&r, error);
@@ -133,7 +130,7 @@ static const char *open_stage(nh_benchmark_work *c, const nh_reduction_stage *s)
     return f->size > 0 ? own_reference(c, f) : "no state is left";
 }
 
-void nh_benchmark_reduced(nh_benchmark_work *c, const nh_simulate_request *q)
+void nh_benchmark_reduced(nh_benchmark_work *c, const nh_request *q)
 {
     nh_error error;
     nh_error_clear(&error);

@@ -66,13 +66,12 @@ static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q
 {
     size_t all;
     nh_setting *setting = nh_classified_settings(x, count, at, &all);
-    nh_analyze_request request = {.command = q->command,
-                                  .system_path = q->system_path,
-                                  .settings = all,
-                                  .setting = setting,
-                                  .options = q->options,
-                                  .no_figures = true,
-                                  .model_only = model_only};
+    nh_request request = {.line = q->command,
+                          .system_path = q->system_path,
+                          .settings = all,
+                          .setting = setting,
+                          .options = q->options,
+                          .model_only = model_only};
     request.options.degree = (double)x->degree;
     nh_analysis *r = nh_analysis_create(&request, error);
     nh_free(setting);

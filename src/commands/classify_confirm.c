@@ -73,7 +73,7 @@ static void density(nh_classified *x, const nh_reduction_stage *s, nh_classified
     nh_text_clear(&text);
 }
 
-static void reduced(nh_classified *x, const nh_reduce_request *request, nh_classified_value *out)
+static void reduced(nh_classified *x, const nh_request *request, nh_classified_value *out)
 {
     nh_error none = {0};
     nh_reduction *r = nh_reduction_create(request, &none);
@@ -94,8 +94,7 @@ void nh_classified_confirm(nh_classified *x, const nh_classify_request *q, const
     nh_error none = {0};
     size_t count;
     nh_setting *setting = nh_classified_settings(x, 1, at, &count);
-    nh_reduce_request request = {
-        .system_path = q->system_path, .settings = count, .setting = setting, .options = q->options};
+    nh_request request = {.system_path = q->system_path, .settings = count, .setting = setting, .options = q->options};
     if (x->of == NH_OF_MEASURE || x->of == NH_OF_HAMILTONIZATION) reduced(x, &request, out);
     else {
         nh_system *s = nh_system_read(q->system_path, count, setting, &none);

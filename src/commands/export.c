@@ -186,16 +186,9 @@ static bool read_inputs(nh_export *x, const char *list, nh_error *error)
 
 /* ---- the results that the parts come from ---- */
 
-static bool analyse(nh_export *x, const nh_export_request *q, nh_error *error)
+static bool analyse(nh_export *x, const nh_request *q, nh_error *error)
 {
-    nh_analyze_request request = {.command = q->command,
-                                  .system_path = q->system_path,
-                                  .settings = q->settings,
-                                  .setting = q->setting,
-                                  .chart = q->chart,
-                                  .options = q->options,
-                                  .no_figures = true};
-    x->analysis = nh_analysis_create(&request, error);
+    x->analysis = nh_analysis_create(q, error);
     if (!x->analysis) return false;
     x->model = x->analysis->model;
     x->partial |= x->analysis->partial;
@@ -204,18 +197,10 @@ static bool analyse(nh_export *x, const nh_export_request *q, nh_error *error)
 }
 
 /* Without a group there is nothing to reduce by: this is a remark, unless the user asked for a group. */
-static bool reduce(nh_export *x, const nh_export_request *q, nh_error *error)
+static bool reduce(nh_export *x, const nh_request *q, nh_error *error)
 {
     nh_error trouble = {0};
-    nh_reduce_request request = {.system_path = q->system_path,
-                                 .settings = q->settings,
-                                 .setting = q->setting,
-                                 .chart = q->chart,
-                                 .initial = q->initial,
-                                 .weak = q->weak,
-                                 .group = q->group,
-                                 .options = q->options};
-    x->reduction = nh_reduction_create(&request, &trouble);
+    x->reduction = nh_reduction_create(q, &trouble);
     if (!x->reduction && (q->group || q->initial || nh_interrupted() || trouble.code == NH_USAGE))
         return *error = trouble, false;
     if (!x->reduction) nh_export_note(x, "reduced: %s", trouble.what);
@@ -224,7 +209,7 @@ static bool reduce(nh_export *x, const nh_export_request *q, nh_error *error)
     return true;
 }
 
-static bool gather(nh_export *x, const nh_export_request *q, unsigned wanted, nh_error *error)
+static bool gather(nh_export *x, const nh_request *q, unsigned wanted, nh_error *error)
 {
     const unsigned geometry = NH_EXPORT_SUBMANIFOLD;
     uint64_t seed = (uint64_t)q->options.seed;
@@ -248,12 +233,14 @@ static bool gather(nh_export *x, const nh_export_request *q, unsigned wanted, nh
     return nh_fail(error, NH_NUMERIC, "", "there is nothing to export: %s", x->notes ? x->note[0] : "no part exists");
 }
 
-nh_export *nh_export_create(const nh_export_request *q, nh_error *error)
+nh_export *nh_export_create(const nh_request *request, nh_error *error)
 {
+    nh_request bare = *request, *q = &bare; /* of its parts only the formulas are of use */
+    bare.analysis_path = NULL, bare.accuracy = 0;
     nh_arena *arena = nh_arena_create();
     nh_export *x = nh_arena_alloc(arena, sizeof *x);
     unsigned wanted = 0;
-    *x = (nh_export){.arena = arena, .command = q->command, .written = q->options.shown, .seed = q->options.seed};
+    *x = (nh_export){.arena = arena, .command = q->line, .written = q->options.shown, .seed = q->options.seed};
     if (q->to) x->to = nh_arena_strdup(arena, q->to);
     if (q->name) x->name = nh_arena_strdup(arena, q->name);
     bool js = q->to && !strcmp(q->to, "js"); /* one model, of a motion with its currents */

@@ -18,19 +18,6 @@ typedef enum {
     NH_EXPORT_ALL = 31
 } nh_export_part;
 
-typedef struct {
-    const char *command, *system_path;
-    size_t settings;
-    const nh_setting *setting;
-    nh_chart_choice chart;
-    const char *initial, *group; /* of the reduction: its initial state and its group; or NULL */
-    bool weak;
-    const char *of;        /* "equations, currents", or NULL: all */
-    const char *input;     /* "u, tau": parameters that are inputs of a controller, or NULL */
-    const char *to, *name; /* the language, and the first word of the names, for the writer; or NULL */
-    nh_options options;
-} nh_export_request;
-
 /* An argument (e: symbols) or a result (e: values). */
 typedef struct {
     const char *name;     /* an identifier in every language */
@@ -85,7 +72,7 @@ typedef struct nh_export {
 } nh_export;
 
 /* Collects the functions; the caller frees the result.  NULL with a message. */
-nh_export *nh_export_create(const nh_export_request *request, nh_error *error);
+nh_export *nh_export_create(const nh_request *request, nh_error *error);
 /* The functions of the reduced equations alone, for a reduction that outlives the result. */
 nh_export *nh_export_of_reduction(const nh_reduction *reduction);
 void nh_export_free(nh_export *export_);

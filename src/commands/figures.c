@@ -13,30 +13,29 @@ enum { outputs = 601, scan_points = 128, scan_values = 401 };
 
 /* Computes a motion with one parameter changed, for which the files are read anew: initial values and expressions may
  * depend on it. */
-static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q, const nh_figure_request *f,
+static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_request *q, const nh_figure_request *f,
                         double value, nh_state *initial, double *until, nh_error *error)
 {
     nh_setting *setting = nh_arena_alloc(s->arena, (q->settings + 1) * sizeof *setting);
     size_t settings = q->settings;
     if (settings) memcpy(setting, q->setting, settings * sizeof *setting);
     if (f->values) setting[settings++] = (nh_setting){.name = f->vary, .value = value};
-    nh_simulate_request motion = {.system_path = q->system_path,
-                                  .analysis_path = q->analysis_path,
-                                  .settings = settings,
-                                  .setting = setting,
-                                  .chart = q->chart,
-                                  .options = r->options,
-                                  .until_given = true,
-                                  .tolerance_given = true};
+    nh_request motion = {.system_path = q->system_path,
+                         .analysis_path = q->analysis_path,
+                         .settings = settings,
+                         .setting = setting,
+                         .chart = q->chart,
+                         .options = r->options,
+                         .until_given = true,
+                         .tolerance_given = true};
     if (motion.chart == NH_CHART_AUTO) motion.chart = r->analysis->chart;
     return nh_simulate_read(s, &motion, initial, until, error);
 }
 
 /* Follows a motion from the initial time to `end`, which may be earlier: quantity k at value[i * n + k], i counted from
  * the initial time. */
-static nh_trajectory *integrate(nh_simulation *s, const nh_analysis *r, const nh_analyze_request *q,
-                                const nh_figure_request *f, const nh_state *initial, double end, size_t count,
-                                double *times, nh_error *error)
+static nh_trajectory *integrate(nh_simulation *s, const nh_analysis *r, const nh_request *q, const nh_figure_request *f,
+                                const nh_state *initial, double end, size_t count, double *times, nh_error *error)
 {
     nh_options options = r->options;
     nh_ex *e = nh_arena_alloc(s->arena, (f->quantities + 1) * sizeof *e);
@@ -75,8 +74,7 @@ static void join(course *c, const nh_trajectory *part, size_t n, bool back)
     }
 }
 
-static bool follow(nh_analysis *r, const nh_analyze_request *q, size_t which, double value, course *out,
-                   nh_error *error)
+static bool follow(nh_analysis *r, const nh_request *q, size_t which, double value, course *out, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_simulation *s = nh_arena_alloc(arena, sizeof *s);
@@ -135,7 +133,7 @@ static void add_motion(nh_analysis *r, nh_figure *figure, const course *c, doubl
             (nh_figure_curve){name_of(r, f, k, value), k, value, c->count, c->time, column(r, c, n, k), NULL};
 }
 
-static void motions(nh_analysis *r, const nh_analyze_request *q, size_t which, nh_figure *figure)
+static void motions(nh_analysis *r, const nh_request *q, size_t which, nh_figure *figure)
 {
     const nh_figure_request *f = figure->request;
     size_t count = f->values ? f->values : 1;
@@ -223,7 +221,7 @@ static void samples(nh_analysis *r, size_t families, const nh_family *family, nh
             (nh_figure_curve){j ? "smallest value above the gap" : "largest null value", 0, NAN, n, x, y[j], NULL};
 }
 
-void nh_figures_compute(nh_analysis *r, const nh_analyze_request *q, size_t families, const nh_family *family)
+void nh_figures_compute(nh_analysis *r, const nh_request *q, size_t families, const nh_family *family)
 {
     const nh_analysis_file *a = r->analysis;
     if (!a || !a->figures) return;

@@ -3,11 +3,11 @@
 #ifndef NH_FIGURES_H
 #define NH_FIGURES_H
 
-#include "commands/analyze_request.h"
+#include "commands/request.h"
+#include "search/analysis.h"
 
 /* Fills result->figure.  A curve that cannot be computed is left out with a warning.  `family`: those of the ansatz
  * with the values of the unknowns; none where the program chose the ansatz. */
-void nh_figures_compute(nh_analysis *result, const nh_analyze_request *request, size_t families,
-                        const nh_family *family);
+void nh_figures_compute(nh_analysis *result, const nh_request *request, size_t families, const nh_family *family);
 
 #endif

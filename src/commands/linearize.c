@@ -284,17 +284,18 @@ static bool all_states(family *f, const char *over, nh_error *error)
     return true;
 }
 
-nh_linearized *nh_linearize_create(const nh_linearize_request *q, nh_error *error)
+nh_linearized *nh_linearize_create(const nh_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_linearized *x = nh_arena_alloc(arena, sizeof *x);
-    *x = (nh_linearized){.arena = arena, .at = q->at ? nh_arena_strdup(arena, q->at) : NULL};
+    *x = (nh_linearized){.arena = arena, .at = q->initial ? nh_arena_strdup(arena, q->initial) : NULL};
     family f = {.x = x, .project = q->project, .axis_parameter = -1, .axis_value = -1};
     nh_progress("the equations of motion", -1);
     x->system = nh_system_read(q->system_path, q->settings, q->setting, error);
     bool good = x->system && read_state(&f, error);
     if (good) x->linearization = nh_linearization_create(x->system);
-    good = good && (q->over ? all_states(&f, q->over, error) : one_state(&f, error));
+    const char *over = q->overs ? q->over_list[0] : q->over;
+    good = good && (over ? all_states(&f, over, error) : one_state(&f, error));
     nh_analysis_file_free(f.file);
     if (good) return x;
     nh_linearized_free(x);

@@ -3,18 +3,9 @@
 #ifndef NH_LINEARIZE_H
 #define NH_LINEARIZE_H
 
-#include "base/option.h"
+#include "commands/request.h"
 #include "commands/scan.h"
 #include "geometry/linearization.h"
-
-typedef struct {
-    const char *system_path;
-    size_t settings;
-    const nh_setting *setting;
-    const char *at, *over; /* "x'=4, lean=0", NULL: at rest, all coordinates 0; "x'=0:10:101" or NULL */
-    bool project;
-    nh_options options;
-} nh_linearize_request;
 
 /* What the eigenvalues of the closed linear equations say: a real part is positive or negative where its error bound
  * proves that. */
@@ -57,7 +48,7 @@ struct nh_linearized { /* nhsym.h */
 };
 
 /* nh_linearized_free frees it.  NULL with a message; with `over` an answer may lack some values, which say why. */
-nh_linearized *nh_linearize_create(const nh_linearize_request *request, nh_error *error);
+nh_linearized *nh_linearize_create(const nh_request *request, nh_error *error);
 
 /* The name of entry i of (x, w) of the linear equations: "lean", "lean'"; in the system's memory. */
 const char *nh_linearize_name(const nh_linearized *linearized, const nh_linear_equations *equations, size_t i);

@@ -208,7 +208,7 @@ static bool named_within_walls(nh_reduction *r, nh_error *error)
     return nh_error_hint(error, "nhsym reduce without --group lists all symmetries");
 }
 
-static bool find_groups(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+static bool find_groups(nh_reduction *r, const nh_request *q, nh_error *error)
 {
     if (q->group && !q->group[strspn(q->group, " ,;\t")])
         return nh_fail(error, NH_USAGE, "--group", "give vector fields or numbers of generators");
@@ -243,7 +243,7 @@ static bool starts_well(nh_reduction *r, nh_error *error)
 
 /* For a system of bodies: which displacements of its joints leave the kinetic energy invariant, and what else these
  * leave invariant. */
-static bool joint_by_joint(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+static bool joint_by_joint(nh_reduction *r, const nh_request *q, nh_error *error)
 {
     if (!r->system->chain || nh_reduction_late(r, "the symmetries joint by joint")) return true;
     r->joints = nh_chain_symmetries_find(r->system, (uint64_t)q->options.seed, error);
@@ -258,7 +258,7 @@ static bool joint_by_joint(nh_reduction *r, const nh_reduce_request *q, nh_error
 
 /* Where metric and constraints give only a vague reason for a failure, the equations of motion give it with its place
  * in the file. */
-static void explain_failure(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+static void explain_failure(nh_reduction *r, const nh_request *q, nh_error *error)
 {
     nh_error better = {0};
     nh_model *whole =
@@ -267,7 +267,7 @@ static void explain_failure(nh_reduction *r, const nh_reduce_request *q, nh_erro
     nh_model_free(whole);
 }
 
-static bool open_system(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+static bool open_system(nh_reduction *r, const nh_request *q, nh_error *error)
 {
     r->system = nh_system_read(q->system_path, q->settings, q->setting, error);
     if (!r->system) return false;
@@ -329,7 +329,7 @@ static bool divide_by_group(nh_reduction *r, nh_error *error)
     return nh_interrupted();
 }
 
-nh_reduction *nh_reduction_create(const nh_reduce_request *q, nh_error *error)
+nh_reduction *nh_reduction_create(const nh_request *q, nh_error *error)
 {
     static const double finest = 1e-14; /* tolerance */
     nh_arena *arena = nh_arena_create();

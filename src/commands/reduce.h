@@ -4,6 +4,7 @@
 
 #include <time.h>
 
+#include "commands/request.h"
 #include "motion/dynamics.h"
 #include "reduction/chain.h"
 #include "reduction/group.h"
@@ -16,29 +17,6 @@
 #include "reduction/reconstruct.h"
 #include "reduction/second.h"
 #include "reduction/quasi_symmetry.h"
-
-typedef struct {
-    const char *system_path;
-    size_t settings;
-    const nh_setting *setting;
-    nh_chart_choice chart;
-    const char *initial; /* "phi=0, omega=2", or NULL; velocities that are not named follow from the constraints */
-    bool project;        /* move velocities that violate the constraints to the nearest that do not */
-    bool weak;           /* also allows symmetries up to a total derivative */
-    /* "3; 1, 2": blocks of generators of the group that is divided out, the smallest normal subgroup last; NULL:
-     * found */
-    const char *chain;
-    /* "1,4=1/2; 4,4=3": entries of the inner product g0 of these generators, which defines the lifts of the equations
-     * by stages; NULL: the generators are orthonormal */
-    const char *inner;
-    /* "1, 2, 5" (numbers of the generators found) or "x=1; theta=1, x=-y, y=x", or NULL: chosen */
-    const char *group;
-    /* accuracy to which reduced and full motions must agree: their methods and tolerances are chosen for it, and
-     * options.tolerance is a hundredth of it; 0: none is requested */
-    double accuracy;
-    bool equations; /* writes out the objects of the theory */
-    nh_options options;
-} nh_reduce_request;
 
 /* The method by which a motion is computed where an accuracy is requested. */
 typedef struct {
@@ -188,7 +166,7 @@ struct nh_reduction {
 
 /* Finds the group and reduces; the caller frees the result.  NULL with a message on bad input (a file, fields that are
  * no symmetries or do not close, a singular place). */
-nh_reduction *nh_reduction_create(const nh_reduce_request *request, nh_error *error);
+nh_reduction *nh_reduction_create(const nh_request *request, nh_error *error);
 /* Computes the stages once more from another initial state, the sample point `place` of r->kinetic, with all
  * comparisons (the shown equations are not computed again). */
 bool nh_reduction_again(nh_reduction *reduction, size_t place, nh_error *error);

@@ -18,7 +18,7 @@ static inline double nh_reduction_absolute(const nh_reduction *r) { return fmax(
 
 /* reduce_start.c: the state of q->initial, with velocities changed so that they satisfy the constraints; refused where
  * the given velocities do not. */
-bool nh_reduction_initial(nh_reduction *reduction, const nh_reduce_request *request, nh_error *error);
+bool nh_reduction_initial(nh_reduction *reduction, const nh_request *request, nh_error *error);
 
 /* The full motion with which stages are compared. */
 typedef struct {

@@ -68,7 +68,7 @@ static bool none_near(nh_error *error)
     return nh_fail(error, NH_NUMERIC, "", "no velocities near the initial ones satisfy the constraints");
 }
 
-static bool velocities(nh_reduction *r, const nh_reduce_request *q, const bool *given, nh_error *error)
+static bool velocities(nh_reduction *r, const nh_request *q, const bool *given, nh_error *error)
 {
     static const double allowed = 1e-9;
     bool *all = nh_arena_alloc(r->arena, r->kinetic->m * sizeof *all);
@@ -107,7 +107,7 @@ static void fill(nh_reduction *r, nh_bordered *b, const bool *given)
 
 /* The same for constraints of any kind: moves to the nearest velocities that satisfy them, without changing given ones
  * noticeably. */
-static bool project(nh_reduction *r, const nh_reduce_request *q, const bool *given, nh_error *error)
+static bool project(nh_reduction *r, const nh_request *q, const bool *given, nh_error *error)
 {
     static const double allowed = 1e-9;
     size_t m = r->kinetic->m;
@@ -141,7 +141,7 @@ static bool begins_at_zero(const nh_state *initial, nh_error *error)
     return nh_error_hint(error, "leave t out, or write t + %g for t in the system file", initial->t);
 }
 
-bool nh_reduction_initial(nh_reduction *r, const nh_reduce_request *q, nh_error *error)
+bool nh_reduction_initial(nh_reduction *r, const nh_request *q, nh_error *error)
 {
     size_t m = r->kinetic->m;
     r->initial.q = nh_arena_alloc(r->arena, m * sizeof(double));

@@ -81,7 +81,7 @@ static void try_method(nh_benchmark_work *b, const char *name, bool in_coordinat
     decide(b, &k, &m, reference, step, o, cell);
 }
 
-void nh_robustness_try(nh_robustness_work *w, const nh_simulate_request *request, double turn, size_t coordinate,
+void nh_robustness_try(nh_robustness_work *w, const nh_request *request, double turn, size_t coordinate,
                        bool in_coordinates, nh_robustness_cell *cell)
 {
     nh_error error;
@@ -133,7 +133,7 @@ static void map_time(nh_robustness_work *w, const char *name, size_t count, doub
     nh_robustness_map *map = nh_robustness_add_map(w, name, "end of the motion", count, method_count);
     w->step = step;
     for (size_t v = 0; v < count; v++) {
-        nh_simulate_request q = *w->request;
+        nh_request q = *w->request;
         q.until_given = true;
         q.options.until = begin + (end - begin) * longer[v];
         set_at(map, v, q.options.until);
@@ -148,7 +148,7 @@ static void map_absolute(nh_robustness_work *w)
     nh_robustness_map *map =
         nh_robustness_add_map(w, "badly scaled", "size below which errors are absolute", count, method_count);
     for (size_t v = 0; v < count; v++) {
-        nh_simulate_request q = *w->request;
+        nh_request q = *w->request;
         q.options.absolute = absolute[v];
         set_at(map, v, absolute[v]);
         nh_robustness_try(w, &q, 0, 0, false, map->cell + v * method_count);
@@ -163,7 +163,7 @@ static void map_parameter(nh_robustness_work *w, const char *name, double value)
     nh_setting *setting = nh_arena_alloc(w->out->arena, (w->request->settings + 1) * sizeof *setting);
     if (w->request->settings) memcpy(setting, w->request->setting, w->request->settings * sizeof *setting);
     for (size_t v = 0; v < count; v++) {
-        nh_simulate_request q = *w->request;
+        nh_request q = *w->request;
         setting[q.settings] = (nh_setting){.name = nh_arena_strdup(w->out->arena, name), .value = value * parameter[v]};
         q.setting = setting;
         q.settings++;
@@ -230,8 +230,7 @@ static bool one_map(nh_robustness_work *w, const nh_benchmark_work *plain, const
                          s->robustness_map[0].name);
 }
 
-nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget,
-                                    nh_error *error)
+nh_robustness *nh_robustness_create(const nh_request *request, const char *over, double budget, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_robustness *out = nh_arena_alloc(arena, sizeof *out);
@@ -256,8 +255,7 @@ void nh_robustness_free(nh_robustness *maps)
     if (maps) nh_arena_free(maps->arena);
 }
 
-nh_benchmark *nh_robustness_benchmark(const nh_simulate_request *request, const char *over, double seconds,
-                                      nh_error *error)
+nh_benchmark *nh_robustness_benchmark(const nh_request *request, const char *over, double seconds, nh_error *error)
 {
     static const double usual = 5, longest = 300; /* seconds: of runs; of maps, which are limited by steps */
     nh_benchmark *b = nh_benchmark_run(request, seconds > 0 ? seconds / 2 : usual, error);

@@ -52,13 +52,11 @@ typedef struct nh_robustness {
  * or "samples", the maps of the discrete problem; NULL: all.  `budget`: seconds for all, HUGE_VAL: only steps are
  * counted.  NULL with a message when the system itself cannot be read.  The tolerance of every run and the error that
  * counts as accurate are request->options.robustness_tolerance and robustness_error. */
-nh_robustness *nh_robustness_create(const nh_simulate_request *request, const char *over, double budget,
-                                    nh_error *error);
+nh_robustness *nh_robustness_create(const nh_request *request, const char *over, double budget, nh_error *error);
 void nh_robustness_free(nh_robustness *maps);
 
 /* A comparison of methods that includes these maps, each for half of the seconds; 0: 5 s for the methods, and the maps
  * are limited by steps, so that they are the same on a busy machine.  After an interruption there may be no maps. */
-nh_benchmark *nh_robustness_benchmark(const nh_simulate_request *request, const char *over, double seconds,
-                                      nh_error *error);
+nh_benchmark *nh_robustness_benchmark(const nh_request *request, const char *over, double seconds, nh_error *error);
 
 #endif

@@ -48,7 +48,7 @@ static bool read_axis(nh_arena *arena, const char *text, axis *a, nh_error *erro
 }
 
 /* A parameter, part of the initial state, or an option. */
-static bool know(const nh_benchmark_work *plain, const nh_simulate_request *request, axis *a, nh_error *error)
+static bool know(const nh_benchmark_work *plain, const nh_request *request, axis *a, nh_error *error)
 {
     const nh_model *o = plain->model;
     const nh_system *s = o->system;
@@ -75,8 +75,8 @@ static bool know(const nh_benchmark_work *plain, const nh_simulate_request *requ
 }
 
 /* Reads up to two axes; returns their number, or 0 with a message. */
-static size_t read_axes(nh_arena *arena, const nh_benchmark_work *plain, const nh_simulate_request *request,
-                        const char *over, axis *a, nh_error *error)
+static size_t read_axes(nh_arena *arena, const nh_benchmark_work *plain, const nh_request *request, const char *over,
+                        axis *a, nh_error *error)
 {
     size_t n = 0;
     char *text = nh_arena_strdup(arena, over), *rest = text;
@@ -117,8 +117,7 @@ static const char *with_initial(nh_arena *arena, const char *initial, const char
     return out;
 }
 
-static bool change(nh_arena *arena, const axis *a, double value, nh_simulate_request *q, nh_setting *setting,
-                   nh_error *error)
+static bool change(nh_arena *arena, const axis *a, double value, nh_request *q, nh_setting *setting, nh_error *error)
 {
     if (a->kind == AXIS_INITIAL) {
         q->initial = with_initial(arena, q->initial, a->name, value);
@@ -133,7 +132,7 @@ static bool change(nh_arena *arena, const axis *a, double value, nh_simulate_req
     return true;
 }
 
-bool nh_robustness_axes(nh_robustness_work *w, const nh_benchmark_work *plain, const nh_simulate_request *request,
+bool nh_robustness_axes(nh_robustness_work *w, const nh_benchmark_work *plain, const nh_request *request,
                         const char *name, const char *over, nh_error *error)
 {
     nh_arena *arena = w->out->arena;
@@ -147,7 +146,7 @@ bool nh_robustness_axes(nh_robustness_work *w, const nh_benchmark_work *plain, c
     nh_setting *setting = nh_arena_alloc(arena, (request->settings + most_axes) * sizeof *setting);
     if (request->settings) memcpy(setting, request->setting, request->settings * sizeof *setting);
     for (size_t i = 0, cells = a[0].count * second; i < cells; i++) {
-        nh_simulate_request q = *request;
+        nh_request q = *request;
         nh_robustness_cell *cell = map->cell + i * map->methods;
         double x = value_at(&a[0], i / second), y = n == 1 ? 0 : value_at(&a[1], i % second);
         q.setting = setting;
@@ -163,7 +162,7 @@ bool nh_robustness_axes(nh_robustness_work *w, const nh_benchmark_work *plain, c
 
 bool nh_robustness_named(nh_robustness_work *w, const nh_benchmark_work *plain, const nh_named_map *s, nh_error *error)
 {
-    nh_simulate_request q = *w->request;
+    nh_request q = *w->request;
     nh_setting *setting = nh_arena_alloc(w->out->arena, (q.settings + s->settings + 1) * sizeof *setting);
     if (q.settings) memcpy(setting, q.setting, q.settings * sizeof *setting);
     for (size_t i = 0; i < s->settings; i++)

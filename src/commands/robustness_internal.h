@@ -10,7 +10,7 @@ enum { NH_ROBUSTNESS_METHODS = 5 }; /* for a map of motions */
 
 typedef struct {
     nh_robustness *out;
-    const nh_simulate_request *request;
+    const nh_request *request;
     double begun, budget;
     size_t values_left; /* number of values that share the rest of the budget */
     double step;        /* methods with this fixed step; 0: those with error control */
@@ -18,13 +18,13 @@ typedef struct {
 
 /* Runs all methods on one motion, in the first formulation or in coordinate velocities; `turn` is added to one
  * coordinate of the initial state. */
-void nh_robustness_try(nh_robustness_work *work, const nh_simulate_request *request, double turn, size_t coordinate,
+void nh_robustness_try(nh_robustness_work *work, const nh_request *request, double turn, size_t coordinate,
                        bool in_coordinates, nh_robustness_cell *cell);
 /* Adds a map; out->map must have room. */
 nh_robustness_map *nh_robustness_add_map(nh_robustness_work *work, const char *name, const char *axis, size_t values,
                                          size_t methods);
 /* The map of one or two entries NAME=LOW:HIGH; without a name (NULL) it is named after its axes. */
-bool nh_robustness_axes(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_simulate_request *request,
+bool nh_robustness_axes(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_request *request,
                         const char *name, const char *over, nh_error *error);
 /* A map that the system file names. */
 bool nh_robustness_named(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_named_map *map,

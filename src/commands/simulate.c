@@ -76,7 +76,7 @@ static void list_columns(nh_simulation *s, const char *also, bool draw)
     if (draw) nh_observables_add_drawing(t, s->analysis);
 }
 
-static double *output_times(nh_simulation *s, const nh_simulate_request *q, double begin, double end, size_t *count,
+static double *output_times(nh_simulation *s, const nh_request *q, double begin, double end, size_t *count,
                             nh_error *error)
 {
     double span = fabs(end - begin), step = q->step > 0 ? q->step : span / default_outputs,
@@ -95,12 +95,12 @@ static double *output_times(nh_simulation *s, const nh_simulate_request *q, doub
     return times;
 }
 
-static bool choose_columns(nh_simulation *s, const nh_simulate_request *q, nh_error *error)
+static bool choose_columns(nh_simulation *s, const nh_request *q, nh_error *error)
 {
     s->columns = nh_observables_create(s->arena, s->model);
     if (q->watch) return read_watch(s, q->watch, error);
     if (q->scene) return read_scene(s, error);
-    list_columns(s, q->also, q->draw && !q->ensemble);
+    list_columns(s, q->current, q->draw && !q->ensemble);
     return true;
 }
 
@@ -169,7 +169,7 @@ static size_t known_currents(nh_simulation *s, nh_ex **out)
 }
 
 /* The candidates from which the method is chosen. */
-static void open_choice(nh_simulation *s, const nh_simulate_request *q, bool plain)
+static void open_choice(nh_simulation *s, const nh_request *q, bool plain)
 {
     s->ways = (nh_choice){.system = s->system,
                           .model = s->model,
@@ -180,10 +180,10 @@ static void open_choice(nh_simulation *s, const nh_simulate_request *q, bool pla
 }
 
 /* The method of the request, with its steps from one output to the next where these are fixed. */
-static bool use_method(nh_simulation *s, const nh_simulate_request *q, const double *times,
-                       nh_trajectory_request *request, nh_error *error)
+static bool use_method(nh_simulation *s, const nh_request *q, const double *times, nh_trajectory_request *request,
+                       nh_error *error)
 {
-    const nh_method *method = request->method = q->method;
+    const nh_method *method = request->method = q->methods ? q->method[0] : NULL;
     if (!method) return true;
     if (q->accuracy > 0 || q->ensemble) {
         nh_fail(error, NH_USAGE, "", "%s, and --method as well",
@@ -229,7 +229,7 @@ static void note_drift(nh_simulation *s, const nh_trajectory_request *q)
 }
 
 /* Curves through the rows of a short table would be polygons. */
-static void draw_finely(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *request)
+static void draw_finely(nh_simulation *s, const nh_request *q, const nh_trajectory_request *request)
 {
     enum { enough = 801 }; /* the page shows every second one, with the last */
     const nh_motion *m = s->motion;
@@ -251,8 +251,8 @@ static void draw_finely(nh_simulation *s, const nh_simulate_request *q, const nh
 
 const nh_trajectory *nh_simulation_drawn(const nh_simulation *s) { return s->drawn ? s->drawn : s->trajectory; }
 
-static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_state *initial, size_t count,
-                      const double *times, nh_error *error)
+static bool integrate(nh_simulation *s, const nh_request *q, const nh_state *initial, size_t count, const double *times,
+                      nh_error *error)
 {
     nh_options options = q->options;
     options.tolerance = s->tolerance;
@@ -292,7 +292,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     if (s->fixed_step > 0 && s->motion->size == s->model->m + s->model->n) note_drift(s, &request);
     draw_finely(s, q, &request);
     /* the smallest model was tried */
-    if (!s->trajectory->scene && request.smallest && !(q->method && q->method->order))
+    if (!s->trajectory->scene && request.smallest && !(request.method && request.method->order))
         s->scene = nh_arena_printf(s->arena, "all %zu states integrated, %s: no smaller subsystem reaches the end",
                                    s->motion->size,
                                    strstr(s->formulation, "all coordinates") ? "in all coordinates" : "in the chart");
@@ -303,7 +303,7 @@ static bool integrate(nh_simulation *s, const nh_simulate_request *q, const nh_s
     return true;
 }
 
-static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *error)
+static nh_simulation *simulate_in_chart(const nh_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_simulation *s = nh_arena_alloc(arena, sizeof *s);
@@ -311,7 +311,7 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
     double until, *times = NULL;
     size_t count;
     s->arena = arena;
-    s->table = q->table;
+    s->table = q->rows;
     if (nh_simulate_read(s, q, &initial, &until, error)) times = output_times(s, q, initial.t, until, &count, error);
     if (times) s->violation = nh_simulate_violation(s, &initial, q->project);
     if (times && choose_columns(s, q, error) && nh_simulate_events(s, q, error) &&
@@ -325,7 +325,7 @@ static nh_simulation *simulate_in_chart(const nh_simulate_request *q, nh_error *
 
 /* The number of states that the smallest model for the observables keeps in this chart; SIZE_MAX: not known. *quasi: is
  * it a chart of quasi-velocities? */
-static size_t states_kept(const nh_simulate_request *q, bool *quasi)
+static size_t states_kept(const nh_request *q, bool *quasi)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -353,19 +353,19 @@ static size_t states_kept(const nh_simulate_request *q, bool *quasi)
 }
 
 /* Quasi-velocities may couple quantities that are separate in coordinate velocities. */
-static bool coordinates_keep_fewer(const nh_simulate_request *q)
+static bool coordinates_keep_fewer(const nh_request *q)
 {
-    nh_simulate_request other = *q;
+    nh_request other = *q;
     bool quasi = false, ignored;
     size_t kept = states_kept(q, &quasi);
     other.chart = NH_CHART_COORDINATES;
     return quasi && states_kept(&other, &ignored) < kept;
 }
 
-nh_simulation *nh_simulation_create(const nh_simulate_request *q, nh_error *error)
+nh_simulation *nh_simulation_create(const nh_request *q, nh_error *error)
 {
     if ((q->watch || q->scene) && q->chart == NH_CHART_AUTO && !q->ensemble && coordinates_keep_fewer(q)) {
-        nh_simulate_request other = *q;
+        nh_request other = *q;
         nh_error ignored;
         nh_error_clear(&ignored);
         other.chart = NH_CHART_COORDINATES;

@@ -5,6 +5,7 @@
 #include "motion/validation.h"
 #include "motion/ensemble_accuracy.h"
 #include "commands/choice.h"
+#include "commands/request.h"
 #include "problem/observables.h"
 
 /* A motion of a table. */
@@ -15,7 +16,7 @@ typedef struct {
     nh_setting *setting; /* values of the columns that are parameters */
 } nh_simulate_row;
 
-typedef struct {
+typedef struct nh_simulate_rows {
     size_t count, parameters; /* rows; columns that are parameters: the same in every row */
     nh_simulate_row *row;
 } nh_simulate_rows;
@@ -26,39 +27,6 @@ typedef struct {
     bool section;     /* is it that of --section?  This is the last one */
     nh_event event;
 } nh_simulated_event;
-
-typedef struct {
-    /* analysis may be NULL: otherwise its initial state, time and observables are used */
-    const char *system_path, *analysis_path;
-    size_t settings;
-    const nh_setting *setting;
-    nh_chart_choice chart;
-    /* "phi=0, omega=2", or NULL: that of the analysis file, otherwise a state that satisfies the constraints */
-    const char *initial;
-    const char *from;  /* the place of this text, for messages; NULL: --initial */
-    const char *watch; /* "y, T = m/2*v^2": only these, by the smallest model for them; or NULL */
-    /* "y = 0, falling, stop; phi'": expressions whose zeros are recorded, or end the motion; or NULL */
-    const char *event;
-    const char *also;    /* "m*v": one more column, called Phi, for the page of another command; or NULL */
-    const char *section; /* "x, rising": a Poincare section; or NULL */
-    const char *axes;    /* "y, y'": the columns of the picture; NULL: chosen */
-    bool scene;          /* the same with the observables of the analysis file */
-    bool draw;           /* also follows what is drawn (one motion with all columns) */
-    bool picture;        /* curves are drawn: with more points than a short table has */
-    /* projects: moves velocities that violate the constraints onto them */
-    bool until_given, tolerance_given, project;
-    double step;             /* output spacing; 0: a hundredth of the time */
-    const nh_method *method; /* NULL: a suitable one, or with an accuracy the cheapest */
-    size_t methods;          /* for a comparison: only these methods; 0: all */
-    const nh_method *const *only;
-    /* the requested accuracy of what is printed; 0: options.tolerance, unchecked */
-    double accuracy;
-    size_t ensemble;               /* members; 0: one motion */
-    const nh_simulate_rows *table; /* their initial states; NULL: around the given one */
-    /* spread of their initial states about the given one, relative to max(|z_i|, 1) */
-    double spread;
-    nh_options options;
-} nh_simulate_request;
 
 enum { NH_AXIS_TIME = -1 }; /* the time instead of a column */
 
@@ -106,14 +74,14 @@ struct nh_simulation {
 };
 
 /* A file of comma-separated values with a line of names: coordinates, velocities (x' or x_dot) and parameters. */
-bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *request, const char *path,
-                           nh_simulate_rows *rows, nh_error *error);
+bool nh_simulate_rows_read(nh_arena *arena, const nh_request *request, const char *path, nh_simulate_rows *rows,
+                           nh_error *error);
 
 /* Gives an error without a place the place of this row. */
 void nh_simulate_row_blame(const nh_simulate_row *row, nh_error *error);
 
 /* Computes the motion of a request; the caller frees it.  NULL with a message. */
-nh_simulation *nh_simulation_create(const nh_simulate_request *request, nh_error *error);
+nh_simulation *nh_simulation_create(const nh_request *request, nh_error *error);
 /* Reads "phi=0, omega=2" as the initial state of an analysis file (to be resolved with a model).  `from`: its place,
  * for messages; NULL: --initial. */
 nh_analysis_file *nh_simulate_initial(const char *from, const char *initial, nh_error *error);
@@ -126,7 +94,7 @@ bool nh_simulation_is_path(const nh_simulation *simulation, size_t x, size_t y);
 /* The first part of a simulation, for a record that has an arena and nothing else: system, analysis, model, tolerance,
  * the initial state (one that satisfies the constraints where none is given) and the final time.  Call
  * nh_simulation_free in any case. */
-bool nh_simulate_read(nh_simulation *simulation, const nh_simulate_request *request, nh_state *initial, double *until,
+bool nh_simulate_read(nh_simulation *simulation, const nh_request *request, nh_state *initial, double *until,
                       nh_error *error);
 
 #endif

@@ -99,7 +99,7 @@ static size_t entries(const char *typed)
 }
 
 /* Refuses options that cannot be combined with events. */
-static bool allowed(const nh_simulate_request *q, nh_simulation *s, nh_error *error)
+static bool allowed(const nh_request *q, nh_simulation *s, nh_error *error)
 {
     bool stop = false;
     for (size_t i = 0; i < s->events; i++) stop |= s->event[i].event.stop;
@@ -150,7 +150,7 @@ static bool is_column_of(const nh_simulation *s, size_t k, nh_ex e)
 
 /* The default columns: over time the first quantity; of a section the first two observables, or else the first
  * coordinate that the section leaves free, and its velocity. */
-static void choose_axes(nh_simulation *s, const nh_simulate_request *q)
+static void choose_axes(nh_simulation *s, const nh_request *q)
 {
     const nh_model *o = s->model;
     const nh_simulated_event *section = &s->event[s->events - 1];
@@ -172,7 +172,7 @@ static void choose_axes(nh_simulation *s, const nh_simulate_request *q)
     }
 }
 
-bool nh_simulate_events(nh_simulation *s, const nh_simulate_request *q, nh_error *error)
+bool nh_simulate_events(nh_simulation *s, const nh_request *q, nh_error *error)
 {
     s->event = nh_arena_alloc(s->arena, (entries(q->event) + entries(q->section)) * sizeof *s->event);
     if (q->event && !read_events(s, "--event", q->event, false, error)) return false;

@@ -16,24 +16,26 @@ const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene
 }
 
 /* The states of all members, row by row. */
-static bool initial_states(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion,
-                           double *initial, nh_error *error)
+static bool initial_states(nh_simulation *s, const nh_request *q, const nh_trajectory_request *motion, double *initial,
+                           nh_error *error)
 {
+    static const double usual = 0.1;
+    double spread = q->spread > 0 ? q->spread : usual;
     size_t size = s->model->m + s->model->n;
     double *z0 = nh_arena_alloc(s->arena, size * sizeof *z0);
     nh_dynamics *d = nh_dynamics_create(s->model);
     bool good = true;
-    for (size_t i = 0; q->table && i < q->ensemble && good; i++)
-        good = nh_simulate_row_start(s, &q->table->row[i], d, motion->initial->t, motion->project, initial + i * size,
+    for (size_t i = 0; q->rows && i < q->ensemble && good; i++)
+        good = nh_simulate_row_start(s, &q->rows->row[i], d, motion->initial->t, motion->project, initial + i * size,
                                      error);
-    if (!q->table) good = nh_dynamics_start(d, motion->initial, motion->project, z0, error);
-    if (!q->table && good) nh_ensemble_states(size, z0, q->ensemble, q->spread, (uint64_t)q->options.seed, initial);
+    if (!q->rows) good = nh_dynamics_start(d, motion->initial, motion->project, z0, error);
+    if (!q->rows && good) nh_ensemble_states(size, z0, q->ensemble, spread, (uint64_t)q->options.seed, initial);
     nh_dynamics_free(d);
     return good;
 }
 
 /* Memory for doubles, and for each again as text of up to 24 characters where the table is written. */
-static bool fits(const nh_simulate_request *q, const nh_trajectory_request *motion, nh_error *error)
+static bool fits(const nh_request *q, const nh_trajectory_request *motion, nh_error *error)
 {
     enum { bytes = sizeof(double) + 24 };
     double size = (double)bytes * (double)q->ensemble * (double)motion->count * (double)(motion->n + 2),
@@ -46,8 +48,7 @@ static bool fits(const nh_simulate_request *q, const nh_trajectory_request *moti
                          size < nh_memory_of_machine() ? "; or raise --max-memory" : "");
 }
 
-bool nh_simulate_many(nh_simulation *s, const nh_simulate_request *q, const nh_trajectory_request *motion,
-                      nh_error *error)
+bool nh_simulate_many(nh_simulation *s, const nh_request *q, const nh_trajectory_request *motion, nh_error *error)
 {
     size_t size = s->model->m + s->model->n, threads = nh_threads(q->options.threads);
     if (!fits(q, motion, error)) return false;

@@ -19,7 +19,7 @@ nh_analysis_file *nh_simulate_initial(const char *from, const char *initial, nh_
     return nh_analysis_file_start(from ? from : "--initial", initial, from ? NH_INPUT : NH_USAGE, error);
 }
 
-static bool resolve(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)
+static bool resolve(nh_simulation *s, const nh_request *q, nh_analysis_file **own, nh_error *error)
 {
     double begin = nh_budget_used();
     nh_progress("the equations of motion", -1);
@@ -73,7 +73,7 @@ static bool needs_other_chart(nh_simulation *s, const nh_state *at)
     return true;
 }
 
-static bool resolve_again(nh_simulation *s, const nh_simulate_request *q, nh_analysis_file **own, nh_error *error)
+static bool resolve_again(nh_simulation *s, const nh_request *q, nh_analysis_file **own, nh_error *error)
 {
     nh_model_free(s->model);
     nh_analysis_file_free(*own);
@@ -131,7 +131,7 @@ static bool no_initial(const nh_simulation *s, nh_error *error)
                          name);
 }
 
-bool nh_simulate_read(nh_simulation *s, const nh_simulate_request *q, nh_state *initial, double *until, nh_error *error)
+bool nh_simulate_read(nh_simulation *s, const nh_request *q, nh_state *initial, double *until, nh_error *error)
 {
     nh_analysis_file *own = NULL;
     if (q->analysis_path && !(s->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;

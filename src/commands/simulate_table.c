@@ -84,7 +84,7 @@ static bool read_row(nh_arena *arena, const char *given, const nh_table *t, size
     return good;
 }
 
-bool nh_simulate_rows_read(nh_arena *arena, const nh_simulate_request *q, const char *path, nh_simulate_rows *out,
+bool nh_simulate_rows_read(nh_arena *arena, const nh_request *q, const char *path, nh_simulate_rows *out,
                            nh_error *error)
 {
     nh_table *t = nh_table_read(arena, path, error);

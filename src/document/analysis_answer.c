@@ -1,4 +1,4 @@
-#include "document/analysis_answer.h"
+#include "document/analysis.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -268,7 +268,7 @@ static void put_parts(const screen *x)
         nh_text_init(&block);
         char *value = nh_print_string(d, x->list.part[i].value);
         nh_text_addf(&line, "%s = %s", x->list.part[i].name, value);
-        nh_sheet_broken(NH_SCREEN_HANG - 1, 2 * NH_SCREEN_HANG, nh_text_string(&line), &block);
+        nh_screen_broken(NH_SCREEN_HANG - 1, 2 * NH_SCREEN_HANG, nh_text_string(&line), &block);
         nh_screen_formula(x->out, x->colour, nh_text_string(&block));
         nh_free(value);
         nh_text_clear(&block);
@@ -406,7 +406,7 @@ static void put_constraints(const screen *x, nh_text *out)
         nh_text_addf(&words, "%s %s", a ? "," : "", s->constraint[a].text);
     nh_text_addf(&words, " %s %s.", s->constraints == 1 ? "is" : "are",
                  nh_constraint_integrability(r->model, &r->constraint));
-    nh_sheet_paragraph(0, 0, nh_text_string(&words), out);
+    nh_screen_paragraph(0, 0, nh_text_string(&words), out);
     nh_text_clear(&words);
 }
 
@@ -474,7 +474,7 @@ static void write(screen *x)
     furthers(x);
     motion(x);
     for (size_t i = 0; i < r->warnings; i++)
-        nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), x->out);
+        nh_screen_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), x->out);
     size_t n = nh_screen_count(nh_text_string(x->out)) + tail + 1;
     equations(x, n < NH_SCREEN_LINES ? NH_SCREEN_LINES - n : 0);
     more(x);

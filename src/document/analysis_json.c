@@ -1,4 +1,4 @@
-#include "document/analysis_json.h"
+#include "document/analysis.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,8 +11,7 @@
 #include "document/facts.h"
 #include "document/formula.h"
 #include "document/geometry_sheet.h"
-#include "document/motion_sheet.h"
-#include "document/analysis_json_internal.h"
+#include "document/analysis_internal.h"
 #include "document/provenance.h"
 #include "graph/node.h"
 

@@ -1,13 +1,11 @@
 /* The answer of an analysis, and the order of its sections. */
 #include <string.h>
 
-#include "document/analysis_answer.h"
+#include "document/analysis.h"
 #include "document/screen.h"
-#include "document/analysis_outline_internal.h"
-#include "document/analysis_stage.h"
+#include "document/analysis_internal.h"
 #include "document/facts.h"
 #include "document/geometry_sheet.h"
-#include "document/motion_sheet.h"
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
 

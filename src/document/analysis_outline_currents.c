@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "document/analysis_outline_internal.h"
+#include "document/analysis_internal.h"
 #include "document/facts.h"
 #include "document/formula.h"
 #include "exact/normal.h"
@@ -227,7 +227,7 @@ static void closed_form(nh_pen *p, const nh_analysis *r, const nh_current *f)
     bool minus = !strncmp(f->meaning, "minus", 5), taken = nh_depends(d, f->phi, symbol),
          all = !taken && energy_in_all_velocities(r, f, &E);
     if (f->energy && !taken && (minus || all))
-        p->ink->formulas(p->to, 2, (const char *[]){f->name, "E"}, (nh_ex[]){minus ? nh_neg(d, symbol) : symbol, E});
+        nh_pen_formulas(p, 2, (const char *[]){f->name, "E"}, (nh_ex[]){minus ? nh_neg(d, symbol) : symbol, E});
     else nh_pen_formula(p, f->name, f->phi);
     if (all && r->model->k)
         nh_pen_words(p, "E is written in all velocities, which satisfy the constraints: it is longer in those of the "

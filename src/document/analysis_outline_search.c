@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "document/analysis_outline_internal.h"
+#include "document/analysis_internal.h"
 #include "document/facts.h"
 #include "graph/node.h"
 #include "graph/print.h"

@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "document/analysis_outline_internal.h"
+#include "document/analysis_internal.h"
 #include "document/formula.h"
 #include "graph/node.h"
 

@@ -22,7 +22,7 @@ const char *nh_fitted_word(const nh_fitted *fitted); /* "accurate", "too few", .
 /* The section "Where methods fail"; robustness NULL: nothing. */
 void nh_benchmark_write_robustness(nh_pen *pen, const nh_robustness *robustness);
 
-/* benchmark_answer.c: the first screen; `maps` may be NULL. */
+/* The first screen; `maps` may be NULL. */
 void nh_benchmark_write_answer(const nh_benchmark *comparison, const nh_robustness *maps, bool colour, nh_text *out);
 
 #endif

@@ -285,7 +285,7 @@ void nh_classification_write_answer(const nh_classified *line, const nh_classifi
         nh_text block;
         nh_text_init(&block);
         nh_text_add(&block, "\n");
-        nh_sheet_fold(nh_text_string(&left), &block);
+        nh_screen_fold(nh_text_string(&left), &block);
         nh_screen_fit(out, &block, 3);
     }
     nh_text_clear(&left);

@@ -13,7 +13,7 @@ nh_ex nh_classification_formula(const nh_analysis *result, const nh_current *cur
 const char *nh_classification_end(const char *end, char *room, size_t size);
 extern const char *const nh_classification_decide; /* options that may decide an open number */
 
-/* classification_wording.c: "integrals polynomial in the velocities", "More for", "more conservation laws than almost
+/* classification.c: "integrals polynomial in the velocities", "More for", "more conservation laws than almost
  * all", "degree 2"; a number; for brackets the rank instead of the codimension. */
 const char *nh_classification_subject(const nh_classified *classified);
 const char *nh_classification_where(const nh_classified *classified);

@@ -32,8 +32,9 @@ bool nh_current_words_agree(const nh_current_words *a, const nh_current_words *b
 /* The sentences for n that agree. */
 void nh_current_words_put(size_t n, const nh_current_words *words, nh_text *out);
 
-/* current_form.c: the name that its form gives a quantity, or "": "Component of the Laplace-Runge-Lenz vector along",
- * "Quadratic in the velocities"; of: what stands after the name, or "". */
-const char *nh_current_form(const nh_analysis *result, nh_ex phi, const char **of);
+/* symmetry_words.c: the symmetry of a quantity, to be read after "from": how = "the symmetry in time", "shifting",
+ * "turning", "rotations about", "rotations in the plane of", "boosts along", "a scaling of", "a symmetry that involves
+ * the velocities"; what: the coordinates, or nothing.  True: rotations of positions. */
+bool nh_symmetry_words(const nh_model *model, const nh_symmetry *symmetry, const char **how, nh_text *what);
 
 #endif

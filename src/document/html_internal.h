@@ -12,13 +12,11 @@
 typedef struct {
     nh_text *out;
     const nh_system *system;
-    const nh_analysis_file *analysis; /* analysis file whose abbreviations are used in formulas; or NULL */
-    nh_dag *dag;                      /* graph of the formulas */
-    const nh_chart *chart;            /* chart whose dependent velocities replace roots; or NULL */
-    double shown;                     /* option `shown`: longer formulas are only in the JSON */
-    double written;                   /* option `written` */
-    const nh_stage *stage;            /* the motion at its top; or NULL */
-    bool headed;                      /* is its header closed? */
+    nh_dag *dag;           /* graph of the formulas */
+    double shown;          /* option `shown`: longer formulas are only in the JSON */
+    double written;        /* option `written` */
+    const nh_stage *stage; /* the motion at its top; or NULL */
+    bool headed;           /* is its header closed? */
     size_t figures;
     size_t names; /* number of names of repeated parts in this card or chart so far: all are different */
     void (*sink)(void *context, const nh_plot *plot, const char *caption); /* NULL: figures are written to the page */
@@ -40,9 +38,6 @@ void nh_html_count(nh_html_writer *w, size_t value);
 void nh_html_source(nh_html_writer *w, const char *text);
 /* Words that end in a list of names in parentheses: the names as formulas. */
 void nh_html_chart_name(nh_html_writer *w, const char *name);
-/* label = e for formulas that belong together, with the user's abbreviations: repeated parts get a common name; or a
- * remark that one is too long for a page.  A label is "", a name, or MathML, which begins with <. */
-void nh_html_formulas(nh_html_writer *w, size_t n, const char *const *label, const nh_ex *e);
 /* A figure with its caption; the plot gets an id. */
 void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption);
 /* Begins a table: its caption and column heads, separated by |; rows follow until the end. */

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/versions.h"
 #include "document/facts.h"
+#include "document/typeset.h"
 #include "document/html_internal.h"
 #include "document/notation.h"
 #include "document/page.h"
@@ -141,6 +142,69 @@ void nh_html_figure(nh_html_writer *w, nh_plot *plot, const char *caption)
     nh_svg_plot(plot, w->out);
     nh_html_tagged(w, "figcaption", caption);
     nh_html_add(w, "</figure>\n");
+}
+
+/* ---- formulas ---- */
+
+enum { widest = 30 }; /* symbols of a piece: about the width of a phone; a wider piece scrolls by itself */
+
+/* Without the <mrow> around single symbols, which would be most of a formula's text. */
+static void add_compact(nh_text *out, const char *piece)
+{
+    static const char row[] = "<mrow>", end[] = "</mrow>";
+    for (const char *c = piece, *next; *c; c = next) {
+        const char *inner = c + sizeof row - 1, *close = !strncmp(c, row, sizeof row - 1) && inner[0] == '<' &&
+                                                                 inner[1] == 'm' && strchr("in", inner[2])
+                                                             ? strstr(inner, "</m")
+                                                             : NULL;
+        const char *after = close ? close + sizeof "</mi>" - 1 : NULL;
+        next = c + 1;
+        if (after && after[-1] == '>' && !strncmp(after, end, sizeof end - 1)) {
+            nh_text_add_n(out, inner, (size_t)(after - inner));
+            next = after + sizeof end - 1;
+        } else {
+            nh_text_add_n(out, c, 1);
+        }
+    }
+}
+
+/* Where a line breaks between factors the page shows a dot: the sign of a soft hyphen (page/page.css). */
+static void write_piece(void *context, const char *piece, nh_typeset_follows follows)
+{
+    nh_html_writer *w = context;
+    nh_html_add(w, "<math displaystyle=\"true\">");
+    add_compact(w->out, piece);
+    nh_html_add(w, "</math>");
+    if (follows != NH_FOLLOWS_NOTHING) nh_html_add(w, follows == NH_FOLLOWS_FACTOR ? "\u00ad" : " ");
+}
+
+void nh_html_source(nh_html_writer *w, const char *text)
+{
+    if (!nh_typeset_pieces(text, NH_MATHML, widest, write_piece, w)) nh_html_tagged(w, "code", text);
+}
+
+/* The same for a name within the text. */
+static void write_name(nh_html_writer *w, const char *name)
+{
+    nh_text formula;
+    nh_text_init(&formula);
+    if (nh_typeset(name, NH_MATHML, &formula)) nh_text_addf(w->out, "<math>%s</math>", nh_text_string(&formula));
+    else nh_html_text(w, name);
+    nh_text_clear(&formula);
+}
+
+void nh_html_chart_name(nh_html_writer *w, const char *name)
+{
+    char words[200], one[200];
+    const char *list = nh_facts_list(name, words, sizeof words);
+    nh_html_text(w, list ? words : name);
+    if (!list) return;
+    nh_html_add(w, "<span class=\"word\">(");
+    for (bool first = true; nh_facts_next(&list, one, sizeof one); first = false) {
+        nh_html_text(w, first ? "" : ", ");
+        write_name(w, one);
+    }
+    nh_html_add(w, ")</span>");
 }
 
 /* ---- tables ---- */

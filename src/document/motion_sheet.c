@@ -1,4 +1,4 @@
-#include "document/motion_sheet.h"
+#include "document/analysis_internal.h"
 
 #include <math.h>
 

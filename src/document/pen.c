@@ -8,7 +8,6 @@
 
 #include "base/memory.h"
 #include "document/formula.h"
-#include "document/notation.h"
 #include "document/typeset.h"
 #include "graph/print.h"
 
@@ -17,18 +16,10 @@ void nh_pen_begin(nh_pen *p, nh_pen_style style, const nh_pen_subject *s, const 
     double written = s->written > 0 ? s->written : INFINITY;
     *p = (nh_pen){.of = *s,
                   .style = style,
-                  .page = {.out = out,
-                           .system = s->system,
-                           .analysis = s->analysis,
-                           .dag = s->dag,
-                           .chart = s->chart,
-                           .shown = s->shown,
-                           .written = written},
+                  .page = {.out = out, .system = s->system, .dag = s->dag, .shown = s->shown, .written = written},
                   .tex = {.out = out,
                           .system = s->system,
-                          .analysis = s->analysis,
                           .dag = s->dag,
-                          .chart = s->chart,
                           .shown = s->shown,
                           .written = written,
                           .fragment = style.fragment},
@@ -107,6 +98,20 @@ void nh_pen_close(nh_pen *p, nh_pen_part part) { p->ink->close(p->to, part); }
 
 /* ---- formats ---- */
 
+/* A part that holds letters of the theory. */
+static void put_notation(nh_pen *p, nh_pen_part part, const char *label)
+{
+    nh_text letters;
+    nh_text_init(&letters);
+    nh_notation_write(label, p->ink->notation, &letters);
+    nh_pen_open(p, part, NULL, NULL);
+    p->ink->markup(p->to, nh_text_string(&letters));
+    nh_pen_close(p, part);
+    nh_text_clear(&letters);
+}
+
+void nh_pen_letters(nh_pen *p, const char *label) { put_notation(p, NH_PEN_LETTERS, label); }
+
 static void plain(nh_pen *p, const char *from, const char *to)
 {
     nh_text text, part;
@@ -114,7 +119,7 @@ static void plain(nh_pen *p, const char *from, const char *to)
     nh_text_init(&text);
     nh_text_add_n(&text, from, (size_t)(to - from));
     for (const char *rest = nh_text_string(&text); nh_notation_next(&rest, &part, &label); nh_text_clear(&part)) {
-        if (label) p->ink->letters(p->to, nh_text_string(&part));
+        if (label) nh_pen_letters(p, nh_text_string(&part));
         else p->ink->words(p->to, nh_text_string(&part));
     }
     nh_text_clear(&text);
@@ -290,7 +295,22 @@ void nh_pen_warning(nh_pen *p, const char *text)
     nh_pen_close(p, NH_PEN_WARNING);
 }
 
-void nh_pen_formula(nh_pen *p, const char *label, nh_ex e) { p->ink->formulas(p->to, 1, &label, &e); }
+void nh_pen_formula(nh_pen *p, const char *label, nh_ex e) { nh_pen_formulas(p, 1, &label, &e); }
+
+void nh_pen_formulas(nh_pen *p, size_t n, const char *const *label, const nh_ex *e)
+{
+    const nh_pen_subject *of = &p->of;
+    size_t one_list = 0, *names = p->style.form == NH_PEN_PAGE    ? &p->page.names
+                                  : p->style.form == NH_PEN_LATEX ? &p->tex.names
+                                                                  : &one_list;
+    nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
+    for (size_t i = 0; i < n; i++)
+        brief[i] = nh_formula_shortened(of->analysis, of->dag, of->chart ? nh_chart_shown(of->chart, e[i]) : e[i]);
+    nh_formula_list list = nh_formula_list_make(of->dag, n, brief, of->shown, names);
+    p->ink->formulas(p->to, &list, n, label, e);
+    nh_formula_list_clear(&list);
+    nh_free(brief);
+}
 
 bool nh_pen_is_name(const char *label) { return !label[strcspn(label, "\\{}<>[] =")]; }
 
@@ -300,7 +320,7 @@ void nh_pen_name(nh_pen *p, const char *name)
 {
     char *label = nh_alloc_array(strlen(name) + 3, 1);
     snprintf(label, strlen(name) + 3, "<%s>", name);
-    p->ink->letters(p->to, label);
+    nh_pen_letters(p, label);
     nh_free(label);
 }
 
@@ -313,20 +333,72 @@ void nh_pen_field(nh_pen *p, nh_dag *d, size_t n, const char *const *coordinate,
         char *text = nh_print_string(d, component[i]), label[200];
         bool sum = nh_formula_is_sum(text), minus = !sum && text[0] == '-';
         p->ink->words(p->to, first ? "" : " ");
-        if (minus || !first) p->ink->letters(p->to, minus ? "-" : "+");
+        if (minus || !first) nh_pen_letters(p, minus ? "-" : "+");
         p->ink->words(p->to, first ? "" : " ");
         if (strcmp(text + minus, "1")) nh_pen_say(p, sum ? "(<%s>) " : "<%s> ", text + minus);
         snprintf(label, sizeof label, "\\frac{\\p}{\\p<%.180s>}", coordinate[i]);
-        p->ink->letters(p->to, label);
+        nh_pen_letters(p, label);
         nh_free(text);
         first = false;
     }
 }
 
-void nh_pen_sheet(nh_pen *p, nh_sheet *sheet)
+/* ---- formulas under headings ---- */
+
+static void put_terms(nh_pen *p, const nh_sheet *s, size_t n, const nh_sheet_term *term)
 {
-    if (!sheet) return;
-    sheet->names = p->names;
-    p->ink->sheet(p->to, sheet, p->headed);
-    p->names = sheet->names;
+    if (n == 0) nh_pen_open(p, NH_PEN_ZERO, NULL, NULL);
+    for (size_t i = 0; i < n; i++) {
+        nh_pen_term t = {.first = i == 0, .wanted = term[i].wanted};
+        char *coefficient = nh_sheet_coefficient(s, &term[i], &t.minus, &t.sum);
+        nh_text factor;
+        nh_text_init(&factor);
+        nh_notation_write(term[i].factor, p->ink->notation, &factor);
+        t.coefficient = coefficient;
+        t.factor = nh_text_string(&factor);
+        p->ink->term(p->to, &t);
+        nh_text_clear(&factor);
+        nh_free(coefficient);
+    }
+}
+
+static void put_line(nh_pen *p, const nh_sheet *s, const nh_sheet_line *line)
+{
+    bool labelled = line->label[0];
+    nh_pen_open(p, NH_PEN_FORMULA, NULL, NULL);
+    if (line->tag[0]) put_notation(p, NH_PEN_NUMBER, line->tag);
+    if (labelled) put_notation(p, NH_PEN_LABEL, line->label);
+    else put_terms(p, s, line->left ? line->left : line->right, line->term);
+    nh_pen_open(p, NH_PEN_EQUALS, NULL, NULL);
+    put_terms(p, s, labelled || line->left ? line->right : 0, line->term + line->left);
+    nh_pen_close(p, NH_PEN_FORMULA);
+}
+
+static void put_remark(nh_pen *p, const char *words)
+{
+    nh_pen_open(p, NH_PEN_REMARK, NULL, NULL);
+    nh_pen_theory(p, words);
+    nh_pen_close(p, NH_PEN_REMARK);
+}
+
+/* One sequence of names of repeated parts for the document; the titles are below the heading of the section, if it has
+ * one. */
+void nh_pen_sheet(nh_pen *p, nh_sheet *s)
+{
+    if (!s) return;
+    s->names = p->names;
+    for (size_t i = 0; i < s->sections; i++) {
+        size_t own;
+        nh_sheet_section c = nh_sheet_brief(s, i, &own);
+        nh_pen_part title = p->headed ? NH_PEN_SUBTITLE : NH_PEN_HEADING;
+        if (c.title[0]) p->ink->open(p->to, title, NULL, c.title), p->ink->close(p->to, title);
+        if (c.words[0]) put_remark(p, c.words);
+        for (size_t j = 0; j < c.lines; j++) {
+            if (j == own) nh_pen_open(p, NH_PEN_WHERE, NULL, NULL);
+            if (c.line[j].words) put_remark(p, c.line[j].words);
+            else put_line(p, s, &c.line[j]);
+        }
+        if (c.lines > own) nh_pen_close(p, NH_PEN_WHERE);
+    }
+    p->names = s->names;
 }

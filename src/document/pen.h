@@ -10,12 +10,16 @@
 #define NH_PEN_H
 
 #include "document/form.h"
+#include "document/formula.h"
 #include "document/html_internal.h"
+#include "document/notation.h"
 #include "document/sheet.h"
 #include "document/tex_internal.h"
 
 /* SCREEN: folded, on pages only, and not when they are printed.  NAME: the title of a card, as a formula.  TAGS: the
- * properties of a card, one TAG each.  BESIDE: figures that stand side by side where there is room. */
+ * properties of a card, one TAG each.  BESIDE: figures that stand side by side where there is room.  LETTERS: of the
+ * theory, within words.  Of a sheet: SUBTITLE, below a heading of its section; REMARK, words between formulas; FORMULA,
+ * a line, with the NUMBER of its equation, the LABEL of its left side, EQUALS and ZERO; WHERE, definitions. */
 typedef enum {
     NH_PEN_SECTION,
     NH_PEN_CARD,
@@ -37,8 +41,25 @@ typedef enum {
     NH_PEN_CELL,
     NH_PEN_ROW_HEAD,
     NH_PEN_KIND,
+    NH_PEN_LETTERS,
+    NH_PEN_SUBTITLE,
+    NH_PEN_REMARK,
+    NH_PEN_FORMULA,
+    NH_PEN_NUMBER,
+    NH_PEN_LABEL,
+    NH_PEN_EQUALS,
+    NH_PEN_ZERO,
+    NH_PEN_WHERE,
     NH_PEN_PARTS
 } nh_pen_part;
+
+/* A term of a sum: its sign, its coefficient, in parentheses where that is a sum, and its factor. */
+typedef struct {
+    bool first, minus, sum;
+    const char *coefficient; /* in the expression language, "" for 1; NULL: too long for the option `shown`.. */
+    double wanted;           /* .. which would have to be this */
+    const char *factor;      /* letters of the theory, in the form's notation; "": none */
+} nh_pen_term;
 
 typedef struct {
     bool screen; /* has it parts for the screen? */
@@ -55,12 +76,12 @@ typedef struct {
     void (*count)(void *to, size_t value);
     void (*names)(void *to, const char *words);
     void (*source)(void *to, const char *formula);
-    void (*letters)(void *to, const char *label);                       /* in the language of notation.h */
+    void (*markup)(void *to, const char *text); /* in the language of the form: letters in its notation */
+    void (*term)(void *to, const nh_pen_term *term);
     void (*equation)(void *to, const char *label, const char *formula); /* label = formula, as texts; label may be "" */
     void (*code)(void *to, const char *text);                           /* text as it is, on lines of its own */
-    /* Formulas that belong together; labels are names, or in the language of notation.h. */
-    void (*formulas)(void *to, size_t n, const char *const *label, const nh_ex *e);
-    void (*sheet)(void *to, nh_sheet *sheet, bool headed); /* headed: it stands below a heading of its section */
+    /* Formulas e that belong together, as the list has them; labels are names, or in the language of notation.h. */
+    void (*formulas)(void *to, const nh_formula_list *list, size_t n, const char *const *label, const nh_ex *e);
     void (*table)(void *to, const char *caption, const char *heads); /* heads: separated by | */
     void (*table_end)(void *to);
     void (*plot)(void *to, nh_plot *plot, const char *caption);
@@ -69,6 +90,7 @@ typedef struct {
     void (*symmetry)(void *to, const nh_symmetry *symmetry); /* the symmetry in words: its case, its bracket */
     void (*glossary)(void *to, const char *words);           /* the meaning of these words; on pages only */
     void (*end)(void *to, const nh_run *run);
+    nh_notation_form notation; /* of letters */
 } nh_pen_ink;
 
 /* The subject of a document.  Formulas longer than `shown` are left out of the document, those longer than `written`
@@ -92,6 +114,7 @@ typedef struct {
     nh_pen_subject of;
     bool colour;
     nh_text rows; /* the buffer that `out` points to within a table; its cells end by tabs */
+    nh_text line; /* likewise within a formula or a remark, which is then broken */
     size_t cells; /* cells of the row, and tags of the card, so far */
 } nh_plain_writer;
 
@@ -138,7 +161,8 @@ void nh_pen_open(nh_pen *pen, nh_pen_part part, const char *id, const char *titl
 void nh_pen_close(nh_pen *pen, nh_pen_part part);
 /* adds words to the open part */
 void nh_pen_say(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void nh_pen_theory(nh_pen *pen, const char *words);                                            /* the same with $..$ */
+void nh_pen_theory(nh_pen *pen, const char *words);  /* the same with $..$ */
+void nh_pen_letters(nh_pen *pen, const char *label); /* letters of the theory, within words */
 void nh_pen_words(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3))); /* a paragraph */
 /* an item of a list of facts */
 void nh_pen_fact(nh_pen *pen, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4)));
@@ -147,7 +171,8 @@ void nh_pen_fact_begin(nh_pen *pen, const char *name);
 void nh_pen_name(nh_pen *pen, const char *name); /* the name of a coordinate, a velocity, .., within words */
 /* A field as the sum of its components times d/d(coordinate), within words. */
 void nh_pen_field(nh_pen *pen, nh_dag *dag, size_t n, const char *const *coordinate, const nh_ex *component);
-void nh_pen_sheet(nh_pen *pen, nh_sheet *sheet); /* NULL: writes nothing */
+/* Formulas under headings; NULL: writes nothing. */
+void nh_pen_sheet(nh_pen *pen, nh_sheet *sheet);
 void nh_pen_row(nh_pen *pen, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* a cell of an open row */
 void nh_pen_cell(nh_pen *pen, nh_pen_part part, const char *format, ...) __attribute__((format(printf, 3, 4)));
@@ -157,7 +182,9 @@ void nh_pen_name_heading(nh_pen *pen, const char *id, const char *name);
 void nh_pen_code(nh_pen *pen, const char *text);
 void nh_pen_warning(nh_pen *pen, const char *text);
 void nh_pen_plot(nh_pen *pen, nh_plot *plot, const char *caption);
-/* label = e; the label is no name, but in the language of notation.h. */
+/* label = e for formulas that belong together, with the user's abbreviations and names for repeated parts; labels are
+ * names, or in the language of notation.h. */
+void nh_pen_formulas(nh_pen *pen, size_t n, const char *const *label, const nh_ex *e);
 void nh_pen_formula(nh_pen *pen, const char *label, nh_ex e);
 bool nh_pen_is_name(const char *label);
 

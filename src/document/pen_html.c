@@ -1,8 +1,10 @@
 /* The parts of a document as a page. */
 #include "base/memory.h"
 #include "document/facts.h"
-#include "document/notation.h"
 #include "document/pen.h"
+#include "document/typeset.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 
 static const struct {
     /* text before the id or the title; before the title of a part that has one; at its end */
@@ -28,6 +30,15 @@ static const struct {
     [NH_PEN_CELL] = {"<td>", NULL, "</td>"},
     [NH_PEN_ROW_HEAD] = {"<th scope=\"row\">", NULL, "</th>"},
     [NH_PEN_KIND] = {"<td class=\"", NULL, "</td>"},
+    [NH_PEN_LETTERS] = {"<math>", NULL, "</math>"},
+    [NH_PEN_SUBTITLE] = {"", "<h4>", ""},
+    [NH_PEN_REMARK] = {"<p>", NULL, "</p>\n"},
+    [NH_PEN_FORMULA] = {"<div class=\"formula\">", NULL, "</div>\n"},
+    [NH_PEN_NUMBER] = {"<math displaystyle=\"true\">", NULL, "</math> \u2002"},
+    [NH_PEN_LABEL] = {"<math displaystyle=\"true\">", NULL, "</math> "},
+    [NH_PEN_EQUALS] = {"<math><mo>=</mo></math> ", NULL, ""},
+    [NH_PEN_ZERO] = {"<math><mn>0</mn></math>", NULL, ""},
+    [NH_PEN_WHERE] = {"<div class=\"where\"><p>where</p>\n", NULL, "</div>\n"},
 };
 
 static void begin(void *to, const char *what) { nh_html_begin(to, what); }
@@ -45,9 +56,9 @@ static void open(void *to, nh_pen_part part, const char *id, const char *title)
     if (!title || !markup[part].titled) return;
     nh_html_add(to, markup[part].titled);
     nh_html_prose(to, title);
-    nh_html_add(to, part == NH_PEN_SECTION                         ? "</h2>\n"
-                    : part == NH_PEN_FOLD || part == NH_PEN_SCREEN ? "</summary>\n"
-                                                                   : "</h3>\n");
+    nh_html_add(to, "</");
+    nh_html_add(to, markup[part].titled + 1);
+    nh_html_add(to, "\n");
 }
 
 static void close(void *to, nh_pen_part part) { nh_html_add(to, markup[part].close); }
@@ -62,7 +73,36 @@ static void names(void *to, const char *text) { nh_html_chart_name(to, text); }
 
 static void source(void *to, const char *formula) { nh_html_source(to, formula); }
 
-static void letters(void *to, const char *label) { nh_html_letters(to, label); }
+static void add_markup(void *to, const char *text) { nh_html_add(to, text); }
+
+static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
+{
+    nh_text_add(context, piece);
+    if (follows != NH_FOLLOWS_NOTHING)
+        nh_text_addf(context, "</math>%s<math displaystyle=\"true\">", follows == NH_FOLLOWS_FACTOR ? "\u00ad" : " ");
+}
+
+/* A line may break between the pieces of a coefficient, but neither behind a sign nor before the factor. */
+static void term(void *to, const nh_pen_term *t)
+{
+    enum { widest = 30 }; /* letters of a piece: about the width of a phone */
+    nh_html_writer *w = to;
+    nh_text pieces;
+    nh_text_init(&pieces);
+    if (!t->coefficient && t->wanted < 1e9)
+        nh_text_addf(&pieces, "<mtext>(too long; --option shown=%.0f shows it)</mtext>", t->wanted);
+    else if (!t->coefficient) nh_text_add(&pieces, "<mtext>(too long for a page)</mtext>");
+    else if (t->coefficient[0] && !nh_typeset_pieces(t->coefficient, NH_MATHML, widest, put_piece, &pieces))
+        nh_text_add(&pieces, "<mtext>(nested too deep)</mtext>");
+    const char *sign = t->first   ? (t->minus ? "<mo>\u2212</mo>" : "")
+                       : t->minus ? "<mo form=\"infix\">\u2212</mo>"
+                                  : "<mo form=\"infix\">+</mo>";
+    nh_text_addf(w->out, "<math displaystyle=\"true\">%s%s%s%s%s%s</math> ", sign,
+                 t->sum ? "<mo stretchy=\"false\">(</mo>" : "", nh_text_string(&pieces),
+                 t->sum ? "<mo stretchy=\"false\">)</mo>" : "",
+                 t->factor[0] && pieces.length ? "<mspace width=\"0.2em\"></mspace>" : "", t->factor);
+    nh_text_clear(&pieces);
+}
 
 static void equation(void *to, const char *label, const char *formula)
 {
@@ -74,24 +114,67 @@ static void equation(void *to, const char *label, const char *formula)
 
 static void code(void *to, const char *text) { nh_html_tagged(to, "pre", text); }
 
-static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
+/* "", a name, or letters of the theory; and the sign behind it. */
+static void put_label(nh_html_writer *w, const char *label)
 {
-    nh_text *mathml = nh_alloc_array(n + 1, sizeof *mathml);
-    const char **shown = nh_alloc_array(n + 1, sizeof *shown);
-    for (size_t i = 0; i < n; i++) {
-        nh_text_init(&mathml[i]);
-        if (!nh_pen_is_name(label[i])) nh_notation_write(label[i], NH_NOTATION_MATHML, &mathml[i]);
-        shown[i] = mathml[i].length ? nh_text_string(&mathml[i]) : label[i];
-    }
-    nh_html_formulas(to, n, shown, e);
-    for (size_t i = 0; i < n; i++) nh_text_clear(&mathml[i]);
-    nh_free(shown);
-    nh_free(mathml);
+    if (!label[0]) return;
+    if (nh_pen_is_name(label)) nh_html_source(w, label);
+    else nh_html_letters(w, label), nh_html_add(w, " ");
+    nh_html_add(w, " <math><mo>=</mo></math> ");
 }
 
-static void sheet(void *to, nh_sheet *formulas_of, bool headed)
+static void put_formula(nh_html_writer *w, const char *label, nh_ex e)
 {
-    nh_sheet_html(formulas_of, headed ? "h4" : "h3", to);
+    char *text = nh_print_string(w->dag, e);
+    open(w, NH_PEN_FORMULA, NULL, NULL);
+    put_label(w, label);
+    nh_html_source(w, text);
+    close(w, NH_PEN_FORMULA);
+    nh_free(text);
+}
+
+static void put_too_long(nh_html_writer *w, const char *label, nh_ex e, double wanted)
+{
+    bool known = (double)nh_complexity(w->dag, e) <= w->written;
+    nh_text words;
+    nh_text_init(&words);
+    nh_formula_left_out(wanted, &words);
+    open(w, NH_PEN_FORMULA, NULL, NULL);
+    put_label(w, label);
+    nh_html_tagged(w, "em", nh_text_string(&words));
+    nh_html_add(w, known ? "<em>; the JSON has it</em>" : "");
+    close(w, NH_PEN_FORMULA);
+    nh_text_clear(&words);
+}
+
+/* The formulas that are short enough, or the others, with the names that only they need. */
+static void put_list(nh_html_writer *w, const nh_formula_list *l, size_t n, const char *const *label, bool beside)
+{
+    bool any = false;
+    for (size_t i = 0; i < n; i++)
+        if (l->stands[i] && l->short_enough[i] == beside) put_formula(w, label[i], l->formula[i]);
+    for (size_t k = 0; k < l->parts; k++) {
+        if (!l->needed[k] || l->beside[k] != beside) continue;
+        if (!any) open(w, NH_PEN_WHERE, NULL, NULL);
+        any = true;
+        put_formula(w, l->part[k].name, l->part[k].value);
+    }
+    if (any) close(w, NH_PEN_WHERE);
+}
+
+static void formulas(void *to, const nh_formula_list *l, size_t n, const char *const *label, const nh_ex *e)
+{
+    nh_html_writer *w = to;
+    size_t folded = 0;
+    put_list(w, l, n, label, true);
+    for (size_t i = 0; i < n; i++) {
+        folded += l->stands[i] && !l->short_enough[i];
+        if (!l->stands[i]) put_too_long(w, label[i], e[i], l->wanted);
+    }
+    if (!folded) return;
+    nh_text_addf(w->out, "<details><summary>%zu long formula%s</summary>\n", folded, folded > 1 ? "s" : "");
+    put_list(w, l, n, label, false);
+    nh_html_add(w, "</details>\n");
 }
 
 static void table(void *to, const char *caption, const char *heads) { nh_html_table(to, caption, heads); }
@@ -121,6 +204,8 @@ static void end(void *to, const nh_run *run)
     nh_html_end(to);
 }
 
-const nh_pen_ink nh_pen_html = {true,  false,     begin,  links,   open,     close,    words,    number,
-                                count, names,     source, letters, equation, code,     formulas, sheet,
-                                table, table_end, plot,   series,  stage,    symmetry, glossary, end};
+const nh_pen_ink nh_pen_html = {true,     false,      begin,     links,    open,
+                                close,    words,      number,    count,    names,
+                                source,   add_markup, term,      equation, code,
+                                formulas, table,      table_end, plot,     series,
+                                stage,    symmetry,   glossary,  end,      NH_NOTATION_MATHML};

@@ -6,27 +6,46 @@
 #include "base/memory.h"
 #include "document/facts.h"
 #include "document/formula.h"
-#include "document/notation.h"
 #include "document/pen.h"
 #include "document/screen.h"
+#include "graph/print.h"
 
 static const struct {
     const char *open, *close; /* text before the title, or the part; at its end */
     bool titled;
 } markup[NH_PEN_PARTS] = {
-    [NH_PEN_SECTION] = {"\n", "", true}, [NH_PEN_CARD] = {"\n", "", true},
-    [NH_PEN_FOLD] = {"", "", false},     [NH_PEN_WORDS] = {"  ", "\n", false},
-    [NH_PEN_ANSWER] = {"", "\n", false}, [NH_PEN_WARNING] = {"warning: ", "\n", false},
-    [NH_PEN_HEADING] = {"\n", "", true}, [NH_PEN_FACTS] = {"", "", false},
-    [NH_PEN_FACT] = {"", "\n", false},   [NH_PEN_FACT_NAME] = {"  ", ": ", false},
-    [NH_PEN_SCREEN] = {"", "", false},   [NH_PEN_SUBHEADING] = {"\n", "\n", false},
-    [NH_PEN_NAME] = {"\n", "", false},   [NH_PEN_TAGS] = {"", "\n", false},
-    [NH_PEN_TAG] = {"", "", false},      [NH_PEN_BESIDE] = {"", "", false},
-    [NH_PEN_ROW] = {"", "\n", false},    [NH_PEN_CELL] = {"", "", false},
-    [NH_PEN_ROW_HEAD] = {"", "", false}, [NH_PEN_KIND] = {"", "", false},
+    [NH_PEN_SECTION] = {"\n", "", true},
+    [NH_PEN_CARD] = {"\n", "", true},
+    [NH_PEN_FOLD] = {"", "", false},
+    [NH_PEN_WORDS] = {"  ", "\n", false},
+    [NH_PEN_ANSWER] = {"", "\n", false},
+    [NH_PEN_WARNING] = {"warning: ", "\n", false},
+    [NH_PEN_HEADING] = {"\n", "", true},
+    [NH_PEN_FACTS] = {"", "", false},
+    [NH_PEN_FACT] = {"", "\n", false},
+    [NH_PEN_FACT_NAME] = {"  ", ": ", false},
+    [NH_PEN_SCREEN] = {"", "", false},
+    [NH_PEN_SUBHEADING] = {"\n", "\n", false},
+    [NH_PEN_NAME] = {"\n", "", false},
+    [NH_PEN_TAGS] = {"", "\n", false},
+    [NH_PEN_TAG] = {"", "", false},
+    [NH_PEN_BESIDE] = {"", "", false},
+    [NH_PEN_ROW] = {"", "\n", false},
+    [NH_PEN_CELL] = {"", "", false},
+    [NH_PEN_ROW_HEAD] = {"", "", false},
+    [NH_PEN_KIND] = {"", "", false},
+    [NH_PEN_LETTERS] = {"", "", false},
+    [NH_PEN_SUBTITLE] = {"\n", "", true},
+    [NH_PEN_REMARK] = {"", "", false},
+    [NH_PEN_FORMULA] = {"", "", false},
+    [NH_PEN_NUMBER] = {"", "  ", false},
+    [NH_PEN_LABEL] = {"", "", false},
+    [NH_PEN_EQUALS] = {" = ", "", false},
+    [NH_PEN_ZERO] = {"0", "", false},
+    [NH_PEN_WHERE] = {"  where\n", "", false},
 };
 
-enum { line_width = 80 };
+enum { line_width = 80, line_indent = 2, formula_hang = 6 };
 
 static void words(void *to, const char *text)
 {
@@ -60,12 +79,22 @@ static void open(void *to, nh_pen_part part, const char *id, const char *title)
     if (part == NH_PEN_ROW || part == NH_PEN_TAGS) w->cells = 0;
     if ((part == NH_PEN_CELL || part == NH_PEN_ROW_HEAD || part == NH_PEN_KIND) && w->cells++) words(w, "\t");
     if (part == NH_PEN_TAG) words(w, w->cells++ ? "; " : ": ");
+    if (part == NH_PEN_FORMULA || part == NH_PEN_REMARK) w->out = &w->line, nh_text_init(w->out);
     if (markup[part].titled && !title) return;
     words(w, markup[part].open);
     if (markup[part].titled) bold(w, title), words(w, "\n");
 }
 
-static void close(void *to, nh_pen_part part) { words(to, markup[part].close); }
+static void close(void *to, nh_pen_part part)
+{
+    nh_plain_writer *w = to;
+    words(w, markup[part].close);
+    if (part != NH_PEN_FORMULA && part != NH_PEN_REMARK) return;
+    w->out = &w->text;
+    if (part == NH_PEN_FORMULA) nh_screen_broken(line_indent, formula_hang, nh_text_string(&w->line), w->out);
+    else nh_screen_paragraph(line_indent, line_indent, nh_text_string(&w->line), w->out);
+    nh_text_clear(&w->line);
+}
 
 static void number(void *to, double value, int digits)
 {
@@ -76,9 +105,18 @@ static void number(void *to, double value, int digits)
 
 static void count(void *to, size_t value) { nh_text_addf(((nh_plain_writer *)to)->out, "%zu", value); }
 
-static void letters(void *to, const char *label)
+static void term(void *to, const nh_pen_term *t)
 {
-    nh_notation_write(label, NH_NOTATION_TEXT, ((nh_plain_writer *)to)->out);
+    nh_plain_writer *w = to;
+    nh_text instead;
+    nh_text_init(&instead);
+    if (!t->factor[0]) nh_formula_left_out(t->wanted, &instead);
+    else if (t->wanted < 1e9) nh_text_addf(&instead, "(too long; --option shown=%.0f shows it)", t->wanted);
+    else nh_text_add(&instead, "(too long)");
+    const char *text = t->coefficient ? t->coefficient : nh_text_string(&instead);
+    words(w, !t->first ? (t->minus ? " - " : " + ") : t->minus ? "-" : "");
+    nh_text_addf(w->out, t->sum ? "(%s)%s%s" : "%s%s%s", text, text[0] && t->factor[0] ? " " : "", t->factor);
+    nh_text_clear(&instead);
 }
 
 static void equation(void *to, const char *label, const char *formula)
@@ -88,33 +126,32 @@ static void equation(void *to, const char *label, const char *formula)
 
 static void code(void *to, const char *text) { nh_text_addf(((nh_plain_writer *)to)->out, "  %s\n", text); }
 
-static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
+/* label = value, with names for repeated parts of long ones, which follow. */
+static void put_formula(nh_plain_writer *w, const char *label, char *value)
 {
-    enum { indent = 2 };
-    nh_plain_writer *w = to;
-    const nh_pen_subject *of = &w->of;
-    nh_text *name = nh_alloc_array(n + 1, sizeof *name);
-    const char **shown = nh_alloc_array(n + 1, sizeof *shown);
-    nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
-    for (size_t i = 0; i < n; i++) {
-        brief[i] = nh_formula_shortened(of->analysis, of->dag, of->chart ? nh_chart_shown(of->chart, e[i]) : e[i]);
-        nh_text_init(&name[i]);
-        if (nh_pen_is_name(label[i])) nh_text_add(&name[i], label[i]);
-        else nh_notation_write(label[i], NH_NOTATION_TEXT, &name[i]);
-        shown[i] = nh_text_string(&name[i]);
-    }
-    nh_sheet_formulas(of->dag, n, shown, brief, indent, of->shown, w->out);
-    for (size_t i = 0; i < n; i++) nh_text_clear(&name[i]);
-    nh_free(brief);
-    nh_free(shown);
-    nh_free(name);
+    open(w, NH_PEN_FORMULA, NULL, NULL);
+    if (nh_pen_is_name(label)) words(w, label);
+    else nh_notation_write(label, NH_NOTATION_TEXT, w->out);
+    nh_text_addf(w->out, " = %s", value);
+    close(w, NH_PEN_FORMULA);
+    nh_free(value);
 }
 
-static void sheet(void *to, nh_sheet *formulas_of, bool headed)
+static void formulas(void *to, const nh_formula_list *l, size_t n, const char *const *label, const nh_ex *e)
 {
     nh_plain_writer *w = to;
-    (void)headed;
-    nh_sheet_text(formulas_of, w->colour, w->out);
+    nh_dag *d = w->of.dag;
+    nh_text left_out;
+    (void)e;
+    nh_text_init(&left_out);
+    nh_formula_left_out(l->wanted, &left_out);
+    for (size_t i = 0; i < n; i++)
+        put_formula(w, label[i],
+                    l->stands[i] ? nh_print_string(d, l->formula[i]) : nh_strdup(nh_text_string(&left_out)));
+    if (l->named) open(w, NH_PEN_WHERE, NULL, NULL);
+    for (size_t k = 0; k < l->parts; k++)
+        if (l->needed[k]) put_formula(w, l->part[k].name, nh_print_string(d, l->part[k].value));
+    nh_text_clear(&left_out);
 }
 
 /* ---- tables ---- */
@@ -291,10 +328,10 @@ static void end(void *to, const nh_run *run)
 {
     nh_plain_writer *w = to;
     if (run && isfinite(run->seconds)) nh_text_addf(w->out, "\n%.0f ms\n", 1e3 * run->seconds);
-    nh_sheet_fold(nh_text_string(&w->text), w->folded);
+    nh_screen_fold(nh_text_string(&w->text), w->folded);
     nh_text_clear(&w->text);
 }
 
-const nh_pen_ink nh_pen_plain = {false, true,      begin, links,   open,     close,    words,    number,
-                                 count, words,     words, letters, equation, code,     formulas, sheet,
-                                 table, table_end, plot,  series,  NULL,     symmetry, glossary, end};
+const nh_pen_ink nh_pen_plain = {false, true,   begin, links,    open,     close, words,           number, count,
+                                 words, words,  words, term,     equation, code,  formulas,        table,  table_end,
+                                 plot,  series, NULL,  symmetry, glossary, end,   NH_NOTATION_TEXT};

@@ -121,7 +121,7 @@ static void block(nh_pen *p, nh_dag *d, const char *heading, size_t n, const cha
     bool folded = length > long_block && !p->ink->brief;
     if (folded) nh_pen_open(p, NH_PEN_FOLD, NULL, heading);
     else nh_pen_words(p, "%s", heading);
-    p->ink->formulas(p->to, n, label, e);
+    nh_pen_formulas(p, n, label, e);
     if (folded) nh_pen_close(p, NH_PEN_FOLD);
 }
 

@@ -4,9 +4,10 @@
 
 #include "base/memory.h"
 #include "document/facts.h"
-#include "document/notation.h"
 #include "document/pen.h"
 #include "document/typeset.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 
 static const struct {
     const char *open, *titled, *close; /* text before the title; before it where there is one; at the end of the part */
@@ -31,6 +32,15 @@ static const struct {
     [NH_PEN_CELL] = {"", NULL, ""},
     [NH_PEN_ROW_HEAD] = {"", NULL, ""},
     [NH_PEN_KIND] = {"", NULL, ""},
+    [NH_PEN_LETTERS] = {"$", NULL, "$"},
+    [NH_PEN_SUBTITLE] = {"", "\\subsubsection*{", ""},
+    [NH_PEN_REMARK] = {"", NULL, "\\par\n"},
+    [NH_PEN_FORMULA] = {"\\nhformula{", NULL, "}\n"},
+    [NH_PEN_NUMBER] = {"", NULL, "\\quad "},
+    [NH_PEN_LABEL] = {"", NULL, ""},
+    [NH_PEN_EQUALS] = {" = ", NULL, ""},
+    [NH_PEN_ZERO] = {"0", NULL, ""},
+    [NH_PEN_WHERE] = {"where\\par\n", NULL, ""},
 };
 
 static void begin(void *to, const char *what)
@@ -82,15 +92,55 @@ static void source(void *to, const char *formula)
     nh_text_clear(&latex);
 }
 
-static void letters(void *to, const char *label)
+static void add_markup(void *to, const char *text) { nh_tex_add(to, text); }
+
+static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
 {
-    nh_tex_writer *w = to;
-    nh_tex_add(w, "$");
-    nh_notation_write(label, NH_NOTATION_LATEX, w->out);
-    nh_tex_add(w, "$");
+    (void)follows;
+    nh_text_addf(context, "%s\n", piece);
 }
 
-static void equation(void *to, const char *label, const char *formula) { nh_tex_display(to, label, formula); }
+static void term(void *to, const nh_pen_term *t)
+{
+    nh_tex_writer *w = to;
+    const char *text = t->coefficient;
+    nh_tex_add(w, !t->first ? (t->minus ? "\\nhbreak - " : "\\nhbreak + ") : t->minus ? "-" : "");
+    nh_tex_add(w, t->sum ? "(" : "");
+    if (!text && t->wanted < 1e9) nh_text_addf(w->out, "(\\text{too long; -{}-option shown=%.0f shows it})", t->wanted);
+    else if (!text) nh_tex_add(w, "(\\text{too long for a page})");
+    else if (text[0] && !nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, w->out))
+        nh_tex_add(w, "(\\text{nested too deep})");
+    nh_tex_add(w, t->sum ? ")" : "");
+    nh_tex_add(w, t->factor[0] && text && text[0] ? "\\," : "");
+    nh_tex_add(w, t->factor);
+}
+
+/* latex = text as a formula; where the text is no formula of the language, plain = text. */
+static void display(nh_tex_writer *w, const nh_text *latex, const char *plain, const char *text)
+{
+    nh_text formula;
+    nh_text_init(&formula);
+    if (nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, &formula)) {
+        nh_text_addf(w->out, latex->length ? "\\nhformula{%s = %s}\n" : "\\nhformula{%s%s}\n", nh_text_string(latex),
+                     nh_text_string(&formula));
+    } else { /* such as a formula that is nested too deep */
+        nh_tex_add(w, "\\par{\\footnotesize\\raggedright ");
+        nh_tex_code(w, plain);
+        nh_tex_add(w, plain[0] ? " = " : "");
+        nh_tex_code(w, text);
+        nh_tex_add(w, "\\par}\n");
+    }
+    nh_text_clear(&formula);
+}
+
+static void equation(void *to, const char *label, const char *formula)
+{
+    nh_text latex;
+    nh_text_init(&latex);
+    if (label[0]) nh_typeset(label, NH_LATEX, &latex);
+    display(to, &latex, label, formula);
+    nh_text_clear(&latex);
+}
 
 static void code(void *to, const char *text)
 {
@@ -98,35 +148,51 @@ static void code(void *to, const char *text)
     nh_tex_add(to, "\\par\n");
 }
 
-/* Words inside a formula. */
-static void put_text(nh_text *out, const char *words)
+/* A name, or words, or letters of the theory, within a formula. */
+static void put_label(const char *label, nh_text *out)
 {
     nh_tex_writer inner = {.out = out};
-    if (!words[0]) return;
-    nh_text_add(out, "\\text{");
-    nh_tex_words(&inner, words);
-    nh_text_add(out, "}");
+    if (!label[0]) return;
+    if (!nh_pen_is_name(label)) nh_notation_write(label, NH_NOTATION_LATEX, out);
+    else if (!nh_typeset(label, NH_LATEX, out))
+        nh_text_add(out, "\\text{"), nh_tex_words(&inner, label), nh_text_add(out, "}");
 }
 
-static void formulas(void *to, size_t n, const char *const *label, const nh_ex *e)
+static void put_formula(nh_tex_writer *w, const char *label, nh_ex e)
 {
-    nh_text *latex = nh_alloc_array(n + 1, sizeof *latex);
-    const char **shown = nh_alloc_array(n + 1, sizeof *shown);
+    char *text = nh_print_string(w->dag, e);
+    nh_text latex;
+    nh_text_init(&latex);
+    put_label(label, &latex);
+    display(w, &latex, label, text);
+    nh_text_clear(&latex);
+    nh_free(text);
+}
+
+static void put_too_long(nh_tex_writer *w, const char *label, nh_ex e, double wanted)
+{
+    bool known = (double)nh_complexity(w->dag, e) <= w->written;
+    nh_text words;
+    nh_text_init(&words);
+    nh_formula_left_out(wanted, &words);
+    nh_tex_add(w, "\\par $");
+    put_label(label, w->out);
+    nh_tex_add(w, "$ = ");
+    nh_tex_words(w, nh_text_string(&words));
+    nh_text_addf(w->out, "%s.\\par\n", known ? "; the JSON has it" : "");
+    nh_text_clear(&words);
+}
+
+static void formulas(void *to, const nh_formula_list *l, size_t n, const char *const *label, const nh_ex *e)
+{
+    nh_tex_writer *w = to;
     for (size_t i = 0; i < n; i++) {
-        nh_text_init(&latex[i]);
-        if (!nh_pen_is_name(label[i])) nh_notation_write(label[i], NH_NOTATION_LATEX, &latex[i]);
-        else if (!nh_typeset(label[i], NH_LATEX, &latex[i])) put_text(&latex[i], label[i]);
-        shown[i] = nh_text_string(&latex[i]);
+        if (l->stands[i]) put_formula(w, label[i], l->formula[i]);
+        else put_too_long(w, label[i], e[i], l->wanted);
     }
-    nh_tex_formulas(to, n, shown, label, e);
-    for (size_t i = 0; i < n; i++) nh_text_clear(&latex[i]);
-    nh_free(shown);
-    nh_free(latex);
-}
-
-static void sheet(void *to, nh_sheet *formulas_of, bool headed)
-{
-    nh_sheet_tex(formulas_of, headed ? "subsubsection" : "subsection", to);
+    if (l->named) nh_tex_add(w, "\\par where\\par\n");
+    for (size_t k = 0; k < l->parts; k++)
+        if (l->needed[k]) put_formula(w, l->part[k].name, l->part[k].value);
 }
 
 /* The heads of the columns, under a line, on every page. */
@@ -175,13 +241,8 @@ static void series(void *to, const nh_time_series *motion)
     nh_tex_writer *w = to;
     nh_text rest;
     nh_text_init(&rest);
-    nh_html_writer page = {.out = &rest,
-                           .system = w->system,
-                           .analysis = w->analysis,
-                           .dag = w->dag,
-                           .shown = w->shown,
-                           .sink = draw,
-                           .context = w};
+    nh_html_writer page = {
+        .out = &rest, .system = w->system, .dag = w->dag, .shown = w->shown, .sink = draw, .context = w};
     nh_html_still(&page, motion);
     nh_html_plots(&page, motion);
     nh_text_clear(&rest);
@@ -202,6 +263,8 @@ static void end(void *to, const nh_run *run)
     nh_tex_add(w, w->fragment ? "\\par\\endgroup\n" : "\\par\\endgroup\n\\end{document}\n");
 }
 
-const nh_pen_ink nh_pen_tex = {false, false,     begin,  links,   open,     close,    words,    number,
-                               count, names,     source, letters, equation, code,     formulas, sheet,
-                               table, table_end, plot,   series,  NULL,     symmetry, glossary, end};
+const nh_pen_ink nh_pen_tex = {false,    false,      begin,     links,    open,
+                               close,    words,      number,    count,    names,
+                               source,   add_markup, term,      equation, code,
+                               formulas, table,      table_end, plot,     series,
+                               NULL,     symmetry,   glossary,  end,      NH_NOTATION_LATEX};

@@ -21,7 +21,7 @@ static int upwards(const nh_time_series *c)
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-static void cross(const double a[3], const double b[3], double out[3])
+void nh_view_cross(const double a[3], const double b[3], double out[3])
 {
     for (size_t j = 0; j < 3; j++) out[j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
 }
@@ -44,9 +44,9 @@ static void directions(nh_view *v)
     v->towards[along[v->up]] = v->up == 2 ? -before : before;
     v->towards[v->up] = above;
     normalise(v->towards);
-    cross(up, v->towards, v->right);
+    nh_view_cross(up, v->towards, v->right);
     normalise(v->right);
-    cross(v->towards, v->right, v->top);
+    nh_view_cross(v->towards, v->right, v->top);
     for (size_t j = 0; j < 3; j++) v->light[j] = v->towards[j] + lamp_up * up[j] + lamp_right * v->right[j];
     normalise(v->light);
 }

@@ -50,6 +50,8 @@ typedef struct {
 
 /* All pieces that are seen at time number i, the far ones first.  The picture begins as {0}. */
 void nh_view_draw(const nh_view *view, size_t i, nh_picture *out);
+/* a x b */
+void nh_view_cross(const double a[3], const double b[3], double out[3]);
 void nh_picture_clear(nh_picture *picture);
 
 #endif

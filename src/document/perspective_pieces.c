@@ -23,11 +23,6 @@ typedef struct {
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (size_t j = 0; j < 3; j++) out[j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
-}
-
 /* p + a u + b v */
 static void sum(const double p[3], double a, const double u[3], double b, const double v[3], double out[3])
 {
@@ -220,7 +215,7 @@ static void body(painter *w, size_t s, int base)
         known &= isfinite(size[j - 3]);
     }
     if (!known) return;
-    cross(axis[0], axis[1], axis[2]);
+    nh_view_cross(axis[0], axis[1], axis[2]);
     if (kind == NH_SHAPE_BALL) ball(w, p, size[0], axis, base);
     else if (kind == NH_SHAPE_CYLINDER) cylinder(w, p, size[0], size[1] / 2, axis, base);
     else block(w, p, size, axis, base);

@@ -1,4 +1,4 @@
-#include "document/reduction_answer.h"
+#include "document/reduction_internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -94,7 +94,7 @@ static void group(const nh_reduction *r, bool colour, nh_text *out)
     if (g->action.d) {
         nh_text_init(&words);
         put_fields(&g->action, &words);
-        nh_sheet_paragraph(2, NH_SCREEN_HANG, nh_text_string(&words), out);
+        nh_screen_paragraph(2, NH_SCREEN_HANG, nh_text_string(&words), out);
         nh_text_clear(&words);
     }
     nh_text_init(&words);
@@ -114,7 +114,7 @@ static void stages(const nh_reduction *r, nh_text *out)
         for (size_t j = 0; j < s->shown->n; j++)
             nh_text_addf(&words, "%s%s", j ? ", " : "", nh_name_of(r->kinetic->dag, s->shown->x[j]));
         nh_text_add(&words, s->shown->n ? "." : "a point: only the velocities of the group move.");
-        nh_sheet_paragraph(0, NH_SCREEN_HANG, nh_text_string(&words), out);
+        nh_screen_paragraph(0, NH_SCREEN_HANG, nh_text_string(&words), out);
         nh_text_clear(&words);
     }
     if (!r->stages) nh_text_add(out, "No reduction was possible.\n");
@@ -174,10 +174,10 @@ void nh_reduction_write_answer(const nh_reduction *r, bool colour, nh_text *out)
     momenta(r, colour, out);
     check(r, out);
     for (size_t i = 0; i < r->warnings; i++)
-        nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), out);
+        nh_screen_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), out);
     for (size_t i = 0; i < r->unused_count; i++)
-        nh_sheet_paragraph(0, 2, nh_arena_printf(r->arena, "Not used: %s (--details says why).", r->unused[i].what),
-                           out);
+        nh_screen_paragraph(0, 2, nh_arena_printf(r->arena, "Not used: %s (--details says why).", r->unused[i].what),
+                            out);
     nh_screen_more(out, "the reduced equations, brackets, conditions, measures",
                    "--to c      the reduced equations as code (python, sympy, matlab, latex)");
 }

@@ -1,9 +1,13 @@
-/* reduction_internal: declarations for the document of a reduction. */
+/* reduction_internal: parts of the document of a reduction; the objects of a stage as sheets, in the letters of
+ * [ChhabraEmami2014] and [CendraDiaz2018]. */
 #ifndef NH_REDUCTION_DOCUMENT_INTERNAL_H
 #define NH_REDUCTION_DOCUMENT_INTERNAL_H
 
+#include "base/text.h"
+#include "commands/reduce.h"
 #include "document/pen.h"
 #include "document/reduction.h"
+#include "document/sheet.h"
 
 /* Facts of a stage: the assumptions that it needs. */
 void nh_reduction_conditions(const nh_reduction_stage *stage, nh_pen *pen);
@@ -13,5 +17,19 @@ void nh_reduction_remarks(const nh_reduction *reduction, const nh_reduction_stag
 void nh_reduction_figures(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_pen *pen);
 void nh_reduction_motion_json(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_json *to);
 void nh_reduction_full_json(const nh_reduction *reduction, nh_json *to);
+
+void nh_reduction_write_answer(const nh_reduction *reduction, bool colour, nh_text *out);
+
+/* ---- sheets ---- */
+
+/* The brackets of a group's generators: one section. */
+nh_sheet *nh_reduction_brackets_sheet(const nh_reduction *reduction, const nh_action *group);
+/* The equations of a stage: one section without a heading. */
+nh_sheet *nh_reduction_equations_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
+/* Formulas to which the remarks on a stage refer: the density of its measure and the matrix of its linear momenta; NULL
+ * where there are none. */
+nh_sheet *nh_reduction_remarks_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
+/* NULL for stages without such objects, and where they were not requested. */
+nh_sheet *nh_reduction_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
 
 #endif

@@ -7,7 +7,6 @@
 #include "graph/print.h"
 #include "document/facts.h"
 #include "document/reduction_internal.h"
-#include "document/reduction_sheet.h"
 #include "graph/dag.h"
 #include "graph/node.h"
 

@@ -6,10 +6,8 @@
 #include "base/memory.h"
 #include "document/simulation.h"
 #include "document/facts.h"
-#include "document/reduction_answer.h"
-#include "document/screen.h"
 #include "document/reduction_internal.h"
-#include "document/reduction_sheet.h"
+#include "document/screen.h"
 #include "graph/node.h"
 
 /* "SE(2) x SO(2)^3" as it is typeset. */

@@ -6,7 +6,6 @@
 #include "document/facts.h"
 #include "document/formula.h"
 #include "document/reduction_internal.h"
-#include "document/reduction_sheet.h"
 #include "graph/node.h"
 
 void nh_reduction_conditions(const nh_reduction_stage *s, nh_pen *p)

@@ -27,9 +27,8 @@ void nh_reduction_sheet_hamiltonian(const nh_reduction_builder *b, const char *l
                                     const nh_ex *locked, nh_ex V);
 /* A second stage. */
 void nh_reduction_sheet_second(nh_reduction_builder *b, const nh_second *second, const nh_reduction_theory *theory);
-/* The whole group at once; and by stages along a chain, with an inner product g0 on the algebra (d x d, or NULL:
- * orthonormal generators). */
-void nh_reduction_sheet_bundle(const nh_reduction_builder *b, const nh_lagrange_poincare *l);
+/* The whole group by stages along a chain, with an inner product g0 on the algebra (d x d, or NULL: orthonormal
+ * generators). */
 void nh_reduction_sheet_stages(const nh_reduction_builder *b, const nh_lagrange_poincare *l, const nh_ideals *chain,
                                const nh_ex *inner);
 

@@ -9,13 +9,12 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "commands/analyze.h"
-#include "document/analysis_json.h"
+#include "document/analysis.h"
 #include "document/reduction.h"
 
 typedef struct {
-    nh_scan_numbers_request request;
-    char *(*document)(const nh_scan_numbers_request *q, size_t settings, const nh_setting *setting, bool generic,
-                      nh_error *error);
+    nh_request request;
+    char *(*document)(const nh_request *q, bool generic, nh_error *error);
     size_t names;
     const char **name;
 } numbers;
@@ -42,17 +41,16 @@ static char *count_json(const nh_count *c, size_t degree)
     return nh_json_finish(root);
 }
 
-static size_t chosen_degree(const nh_scan_numbers_request *q, const nh_model *model)
+static size_t chosen_degree(const nh_request *q, const nh_model *model)
 {
     enum { few = 4, high = 4, low = 2 };
     if (q->options.degree > 0) return (size_t)q->options.degree;
     return model->m <= few ? high : low;
 }
 
-static char *count_document(const nh_scan_numbers_request *q, size_t settings, const nh_setting *setting, bool generic,
-                            nh_error *error)
+static char *count_document(const nh_request *q, bool generic, nh_error *error)
 {
-    nh_system *s = nh_system_read(q->system_path, settings, setting, error);
+    nh_system *s = nh_system_read(q->system_path, q->settings, q->setting, error);
     nh_chart *chart = s ? nh_chart_create(s, NH_CHART_AUTO, (uint64_t)q->options.seed, error) : NULL;
     nh_model *model = chart ? nh_model_create(s, chart, error) : NULL;
     char *text = NULL;
@@ -73,36 +71,19 @@ static char *count_document(const nh_scan_numbers_request *q, size_t settings, c
     return text;
 }
 
-/* Counted work ends the computation, and not the clock. */
-static nh_options unhurried(const nh_scan_numbers_request *q)
-{
-    nh_options options = q->options;
-    options.max_seconds = INFINITY;
-    return options;
-}
-
-static char *analysis_document(const nh_scan_numbers_request *q, size_t settings, const nh_setting *setting,
-                               bool generic, nh_error *error)
+static char *analysis_document(const nh_request *q, bool generic, nh_error *error)
 {
     (void)generic;
-    nh_analyze_request request = {.system_path = q->system_path,
-                                  .settings = settings,
-                                  .setting = setting,
-                                  .options = unhurried(q),
-                                  .no_figures = true};
-    nh_analysis *r = nh_analysis_create(&request, error);
+    nh_analysis *r = nh_analysis_create(q, error);
     char *text = r ? nh_analysis_json(r) : NULL;
     nh_analysis_free(r);
     return text;
 }
 
-static char *reduction_document(const nh_scan_numbers_request *q, size_t settings, const nh_setting *setting,
-                                bool generic, nh_error *error)
+static char *reduction_document(const nh_request *q, bool generic, nh_error *error)
 {
     (void)generic;
-    nh_reduce_request request = {
-        .system_path = q->system_path, .settings = settings, .setting = setting, .options = unhurried(q)};
-    nh_reduction *r = nh_reduction_create(&request, error);
+    nh_reduction *r = nh_reduction_create(q, error);
     char *text = r ? nh_reduction_json(r, NULL) : NULL;
     nh_reduction_free(r);
     return text;
@@ -111,7 +92,7 @@ static char *reduction_document(const nh_scan_numbers_request *q, size_t setting
 /* The first name is the leading number; the others are shown when the user names none. */
 static const struct {
     const char *of, *name[3];
-    char *(*document)(const nh_scan_numbers_request *, size_t, const nh_setting *, bool, nh_error *);
+    char *(*document)(const nh_request *, bool, nh_error *);
     bool spectra;
 } commands[] = {
     {"count", {"dimension", "independent"}, count_document, true},
@@ -161,7 +142,9 @@ static bool numbers_at(void *context, nh_arena *arena, size_t settings, const nh
     nh_error error;
     nh_error_clear(&error);
     *why = NULL;
-    char *text = x->document(&x->request, settings, setting, generic, &error);
+    nh_request q = x->request;
+    q.settings = settings, q.setting = setting;
+    char *text = x->document(&q, generic, &error);
     nh_json *root = text ? nh_json_parse(text) : NULL;
     for (size_t i = 0; i < x->names; i++) number[i] = nh_json_size(follow(root, x->name[i]));
     if (error.code != NH_OK) *why = nh_arena_strdup(arena, error.what);
@@ -173,7 +156,7 @@ static bool numbers_at(void *context, nh_arena *arena, size_t settings, const nh
 
 /* ---- the request ---- */
 
-static bool choose(const nh_scan_numbers_request *q, size_t *command, nh_error *error)
+static bool choose(const nh_request *q, size_t *command, nh_error *error)
 {
     const char *names[command_count];
     for (*command = 0; *command < command_count; ++*command) {
@@ -209,11 +192,11 @@ static bool are_there(const numbers *x, const char *of, nh_error *error)
     nh_error failure;
     nh_error_clear(&failure);
     nh_progress("which numbers there are", -1);
-    char *text = x->document(&x->request, x->request.settings, x->request.setting, false, &failure);
+    char *text = x->document(&x->request, false, &failure);
     nh_json *root = text ? nh_json_parse(text) : NULL;
     bool good = true;
-    for (size_t i = 0; good && root && i < x->request.names; i++) {
-        const char *path = x->request.name[i];
+    for (size_t i = 0; good && root && i < x->request.numbers; i++) {
+        const char *path = x->request.number[i];
         const nh_json *found = follow(root, path);
         bool listed = path[strcspn(path, "0123456789")] != 0;
         if (!listed && (!found || nh_json_is_text(found))) good = no_number(root, path, of, error);
@@ -223,31 +206,33 @@ static bool are_there(const numbers *x, const char *of, nh_error *error)
     return good;
 }
 
-bool nh_scan_numbers(nh_arena *arena, const nh_scan_numbers_request *q, nh_scan_source *out, nh_error *error)
+bool nh_scan_numbers(nh_arena *arena, const nh_request *q, nh_scan_source *out, nh_error *error)
 {
     size_t k;
     if (!choose(q, &k, error)) return false;
-    if (q->names >= NH_SCAN_MOST_NUMBERS)
-        return nh_fail(error, NH_USAGE, "", "--number is given %zu times, but a scan has at most %d numbers", q->names,
-                       NH_SCAN_MOST_NUMBERS - 1);
+    if (q->numbers >= NH_SCAN_MOST_NUMBERS)
+        return nh_fail(error, NH_USAGE, "", "--number is given %zu times, but a scan has at most %d numbers",
+                       q->numbers, NH_SCAN_MOST_NUMBERS - 1);
     numbers *x = nh_arena_alloc(arena, sizeof *x);
     *x = (numbers){.request = *q, .document = commands[k].document};
-    x->name = nh_arena_alloc(arena, (q->names + 3) * sizeof *x->name);
+    x->request.documents = false;
+    x->request.options.max_seconds = INFINITY; /* counted work ends a computation, and not the clock */
+    x->name = nh_arena_alloc(arena, (q->numbers + 3) * sizeof *x->name);
     x->name[x->names++] = commands[k].name[0];
-    if (!q->names) x->name[x->names++] = commands[k].name[1];
-    for (size_t i = 0; i < q->names; i++) {
-        if (is_time(q->name[i])) {
-            nh_fail(error, NH_USAGE, "", "--number %s: this is a time, which is not the same twice", q->name[i]);
+    if (!q->numbers) x->name[x->names++] = commands[k].name[1];
+    for (size_t i = 0; i < q->numbers; i++) {
+        if (is_time(q->number[i])) {
+            nh_fail(error, NH_USAGE, "", "--number %s: this is a time, which is not the same twice", q->number[i]);
             return nh_error_hint(error, "`nhsym benchmark` measures times");
         }
-        if (strcmp(q->name[i], x->name[0])) x->name[x->names++] = q->name[i];
+        if (strcmp(q->number[i], x->name[0])) x->name[x->names++] = q->number[i];
     }
     *out = (nh_scan_source){.of = commands[k].of,
                             .count = x->names,
                             .name = x->name,
-                            .usual = !q->names,
+                            .usual = !q->numbers,
                             .spectra = commands[k].spectra,
                             .at = numbers_at,
                             .context = x};
-    return !q->names || are_there(x, commands[k].of, error);
+    return !q->numbers || are_there(x, commands[k].of, error);
 }

@@ -5,19 +5,11 @@
 #ifndef NH_SCAN_NUMBERS_H
 #define NH_SCAN_NUMBERS_H
 
+#include "commands/request.h"
 #include "commands/scan.h"
 
-typedef struct {
-    const char *of; /* "count", "analyze", "reduce"; NULL: count */
-    size_t names;
-    const char *const *name; /* numbers besides the leading one; none: a few suitable ones */
-    const char *system_path;
-    size_t settings;
-    const nh_setting *setting;
-    nh_options options;
-} nh_scan_numbers_request;
-
-/* Makes a source, which lives in the arena.  False with a message: there is no such command or number. */
-bool nh_scan_numbers(nh_arena *arena, const nh_scan_numbers_request *request, nh_scan_source *out, nh_error *error);
+/* Makes a source of request->of and request->number, which lives in the arena.  False with a message: there is no such
+ * command or number. */
+bool nh_scan_numbers(nh_arena *arena, const nh_request *request, nh_scan_source *out, nh_error *error);
 
 #endif

@@ -387,9 +387,9 @@ static size_t put_specials(const nh_scan *x, bool sure, size_t tail, nh_text *ou
         if ((s->confirmed || s->kind == NH_SCAN_STEP) != sure || !count_alike(x, i)) continue;
         nh_text block;
         nh_text_init(&block);
-        nh_sheet_paragraph(2, 2 + NH_SCREEN_HANG,
-                           nh_arena_printf(x->arena, "%s%s: %s", sure ? "" : "perhaps ", where(x, i), what(x, s)),
-                           &block);
+        nh_screen_paragraph(2, 2 + NH_SCREEN_HANG,
+                            nh_arena_printf(x->arena, "%s%s: %s", sure ? "" : "perhaps ", where(x, i), what(x, s)),
+                            &block);
         left += !nh_screen_fit(out, &block, tail);
     }
     return left;

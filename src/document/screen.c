@@ -4,8 +4,78 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "document/sheet.h"
 #include "graph/print.h"
+
+enum { line_width = 80, line_indent = 2 };
+
+/* Where a line of at most `room` characters is best broken: before a + or - with few open parentheses, otherwise after
+ * a factor; 0: nowhere. */
+static size_t break_at(const char *text, size_t room)
+{
+    size_t best = 0;
+    int depth = 0, least = 1 << 20;
+    for (size_t i = 0; i < room && text[i]; i++) {
+        depth += (text[i] == '(') - (text[i] == ')');
+        bool equal = text[i + 1] == '=' && i > room / 4; /* not right after a label */
+        if (i == 0 || text[i] != ' ' || (!equal && text[i + 1] != '+' && text[i + 1] != '-') || text[i + 2] != ' ')
+            continue;
+        if (depth > least && i < best + room / 2) continue;
+        least = depth;
+        best = i;
+    }
+    for (size_t i = room; i > room / 2 && !best; i--)
+        if (text[i - 1] == '*' || text[i - 1] == ' ') best = i;
+    return best;
+}
+
+/* The break between words: at the last blank with at most `room` columns before it, or at the first one. */
+static size_t blank_at(const char *text, size_t room)
+{
+    size_t cut = 0, column = 0;
+    for (size_t i = 0; text[i] && (column <= room || !cut); i++) {
+        if (text[i] == ' ' && i) cut = i;
+        column += ((unsigned char)text[i] & 0xc0) != 0x80;
+    }
+    return cut;
+}
+
+/* Breaks the text so that nothing extends beyond the last column; `hang`: indentation of all lines but the first. */
+static void put_broken(nh_text *out, size_t indent, size_t hang, const char *text,
+                       size_t (*where)(const char *, size_t))
+{
+    nh_text_addf(out, "%*s", (int)indent, "");
+    for (size_t room = line_width - indent; nh_text_width(text) > room; room = line_width - hang) {
+        size_t cut = where(text, room);
+        if (!cut) break;
+        nh_text_add_n(out, text, cut);
+        text += cut + (text[cut] == ' ');
+        nh_text_addf(out, "\n%*s", (int)hang, "");
+    }
+    nh_text_addf(out, "%s\n", text);
+}
+
+void nh_screen_paragraph(size_t indent, size_t hang, const char *words, nh_text *out)
+{
+    put_broken(out, indent, hang, words + strspn(words, " "), blank_at);
+}
+
+void nh_screen_broken(size_t indent, size_t hang, const char *formula, nh_text *out)
+{
+    put_broken(out, indent, hang, formula, break_at);
+}
+
+void nh_screen_fold(const char *text, nh_text *out)
+{
+    for (const char *line = text; *line;) {
+        size_t length = strcspn(line, "\n"), indent = strspn(line, " ");
+        nh_text one;
+        nh_text_init(&one);
+        nh_text_add_n(&one, line + indent, length - indent);
+        put_broken(out, indent, indent + line_indent, nh_text_string(&one), blank_at);
+        nh_text_clear(&one);
+        line += length + (line[length] == '\n');
+    }
+}
 
 bool nh_screen_is_wanted(nh_pen_style style) { return style.form == NH_PEN_TEXT && !style.verbose; }
 
@@ -70,7 +140,7 @@ void nh_screen_begin(nh_text *out, bool colour, const nh_system *s, const char *
 void nh_screen_say(nh_text *out, size_t indent, nh_text *words)
 {
     while (words->length && words->data[words->length - 1] == ' ') words->data[--words->length] = 0;
-    if (words->length) nh_sheet_paragraph(indent, indent, nh_text_string(words), out);
+    if (words->length) nh_screen_paragraph(indent, indent, nh_text_string(words), out);
     nh_text_clear(words);
 }
 
@@ -92,7 +162,7 @@ bool nh_screen_equation(const char *label, nh_dag *d, nh_ex e, nh_text *out)
     nh_text_init(&line);
     char *value = nh_print_short(d, e, longest); /* a shared graph can be exponentially long on paper */
     nh_text_addf(&line, "%s = %s", label, value ? value : "");
-    if (value) nh_sheet_broken(2, 2 + NH_SCREEN_HANG, nh_text_string(&line), out);
+    if (value) nh_screen_broken(2, 2 + NH_SCREEN_HANG, nh_text_string(&line), out);
     bool written = value;
     nh_free(value);
     nh_text_clear(&line);
@@ -106,7 +176,7 @@ bool nh_screen_put(nh_text *out, bool colour, size_t indent, const char *head, c
     nh_text_init(&line);
     nh_text_init(&block);
     nh_text_addf(&line, "%s%s", head, formula ? formula : instead ? instead : "a long formula (--details)");
-    nh_sheet_broken(indent, indent + NH_SCREEN_HANG + (indent ? 0 : 2), nh_text_string(&line), &block);
+    nh_screen_broken(indent, indent + NH_SCREEN_HANG + (indent ? 0 : 2), nh_text_string(&line), &block);
     size_t n = nh_screen_count(nh_text_string(&block));
     bool written = formula && n <= most;
     if (formula && !written) {

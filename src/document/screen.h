@@ -1,4 +1,4 @@
-/* screen: first screens of answers on a terminal. */
+/* screen: text of 80 columns, and first screens of answers on a terminal. */
 #ifndef NH_SCREEN_H
 #define NH_SCREEN_H
 
@@ -8,6 +8,12 @@
 #include "system/system.h"
 
 enum { NH_SCREEN_LINES = 40, NH_SCREEN_HANG = 4 };
+
+/* Words, and a formula, as lines of at most 80 columns; `hang`: the indentation of all lines but the first. */
+void nh_screen_paragraph(size_t indent, size_t hang, const char *words, nh_text *out);
+void nh_screen_broken(size_t indent, size_t hang, const char *formula, nh_text *out);
+/* Any text, with lines of at most 80 columns, broken at blanks. */
+void nh_screen_fold(const char *text, nh_text *out);
 
 /* Is a text for a terminal wanted, without --details?  Then the answer is its first screen. */
 bool nh_screen_is_wanted(nh_pen_style style);

@@ -199,9 +199,13 @@ static void put_terms(const nh_sheet *s, const nh_sheet_section *c, nh_json *ite
 
 static void put_words(nh_json *to, const char *words)
 {
-    nh_text text;
+    nh_text text, part;
+    bool label;
     nh_text_init(&text);
-    nh_sheet_plain(words, &text);
+    for (; nh_notation_next(&words, &part, &label); nh_text_clear(&part)) {
+        if (label) nh_notation_write(nh_text_string(&part), NH_NOTATION_TEXT, &text);
+        else nh_text_add(&text, nh_text_string(&part));
+    }
     nh_json_put_text(to, "words", nh_text_string(&text));
     nh_text_clear(&text);
 }

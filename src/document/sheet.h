@@ -1,4 +1,4 @@
-/* sheet: formulas under headings, written once for text, JSON, page and LaTeX.
+/* sheet: formulas under headings, which nh_pen_sheet writes for text, page and LaTeX, and nh_sheet_json as JSON.
  *
  * A line is   label = c_1 f_1 + c_2 f_2 + ...   with expressions c and letters f of the theory (notation.h), or an
  *             equation, with such a sum on both sides; or words.  Lines belong to sections. */
@@ -6,8 +6,7 @@
 #define NH_SHEET_H
 
 #include "base/json.h"
-#include "document/html_internal.h"
-#include "document/tex_internal.h"
+#include "problem/analysis_file.h"
 
 typedef struct {
     nh_ex coefficient;
@@ -68,20 +67,6 @@ nh_sheet_section nh_sheet_brief(nh_sheet *sheet, size_t section, size_t *own);
  * too long.  The caller frees it. */
 char *nh_sheet_coefficient(const nh_sheet *sheet, const nh_sheet_term *term, bool *minus, bool *sum);
 
-/* Words with labels between dollar signs, as text. */
-void nh_sheet_plain(const char *words, nh_text *out);
-void nh_sheet_text(nh_sheet *sheet, bool colour, nh_text *out);
-/* Any text, with lines of at most 80 columns, broken at blanks. */
-void nh_sheet_fold(const char *text, nh_text *out);
-/* Words, and a formula, as lines of at most 80 columns; `hang`: the indentation of all lines but the first. */
-void nh_sheet_paragraph(size_t indent, size_t hang, const char *words, nh_text *out);
-void nh_sheet_broken(size_t indent, size_t hang, const char *formula, nh_text *out);
-/* Formulas without a sheet as text of 80 columns: label = value, with names for repeated parts of long ones, which
- * follow. */
-void nh_sheet_formulas(nh_dag *dag, size_t n, const char *const *label, const nh_ex *value, size_t indent, double shown,
-                       nh_text *out);
-void nh_sheet_json(nh_sheet *sheet, nh_json *to);                            /* a member of `to` for each section */
-void nh_sheet_html(nh_sheet *sheet, const char *heading, nh_html_writer *w); /* heading: h3 */
-void nh_sheet_tex(nh_sheet *sheet, const char *heading, nh_tex_writer *w);   /* heading: subsection */
+void nh_sheet_json(nh_sheet *sheet, nh_json *to); /* a member of `to` for each section */
 
 #endif

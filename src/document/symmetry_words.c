@@ -1,4 +1,4 @@
-#include "document/symmetry_words.h"
+#include "document/current_words.h"
 
 #include "exact/normal.h"
 #include "graph/dag.h"

@@ -12,13 +12,11 @@
 typedef struct {
     nh_text *out;
     const nh_system *system;
-    const nh_analysis_file *analysis; /* analysis file whose abbreviations are used in formulas; or NULL */
-    nh_dag *dag;                      /* graph of the formulas */
-    const nh_chart *chart;            /* chart whose dependent velocities replace roots; or NULL */
-    double shown, written;            /* options: longest formula in the document; in the JSON */
-    bool fragment;                    /* without preamble and end */
-    size_t cells;                     /* cells of the row so far */
-    size_t names;                     /* number of names of repeated parts so far */
+    nh_dag *dag;           /* graph of the formulas */
+    double shown, written; /* options: longest formula in the document; in the JSON */
+    bool fragment;         /* without preamble and end */
+    size_t cells;          /* cells of the row so far */
+    size_t names;          /* number of names of repeated parts so far */
 } nh_tex_writer;
 
 enum { NH_TEX_WIDEST = 46 }; /* letters in a piece of a formula: much shorter than a line */
@@ -36,12 +34,6 @@ void nh_tex_count(nh_tex_writer *w, size_t value);
 void nh_tex_name(nh_tex_writer *w, const char *text);
 /* Words that end in a list of names in parentheses: the names as formulas. */
 void nh_tex_chart(nh_tex_writer *w, const char *name);
-/* label = text on lines of its own, broken where it is too long; label may be "". */
-void nh_tex_display(nh_tex_writer *w, const char *label, const char *text);
-/* Formulas below each other, with the user's abbreviations and with names for repeated parts.  Their labels in LaTeX,
- * such as Z_{\dot{x}}, or ""; and as text, for a formula that is nested too deep for LaTeX. */
-void nh_tex_formulas(nh_tex_writer *w, size_t n, const char *const *latex, const char *const *plain, const nh_ex *e);
-
 /* The preamble and the title of the system, which `what` follows, unless it is NULL.  The other one: how to repeat the
  * run. */
 void nh_tex_head(nh_tex_writer *w, const char *what);

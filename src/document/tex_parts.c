@@ -3,12 +3,13 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "exact/normal.h"
-#include "graph/print.h"
-#include "document/typeset.h"
+#include "base/versions.h"
 #include "document/facts.h"
 #include "document/formula.h"
 #include "document/tex_internal.h"
+#include "document/typeset.h"
+#include "exact/normal.h"
+#include "graph/print.h"
 
 void nh_tex_add(nh_tex_writer *w, const char *markup) { nh_text_add(w->out, markup); }
 
@@ -160,86 +161,52 @@ const char *const nh_tex_formula_macro =
     "1fil\\hangindent=2em\\hangafter=1\\binoppenalty=10000\\relpenalty=10000"
     "\\lineskiplimit=3pt\\lineskip=4pt $\\displaystyle #1$\\par}\\addvspace{4pt plus 1pt}}\n";
 
-static void put_piece(void *context, const char *piece, nh_typeset_follows follows)
+/* ---- the beginning and the end of a document, and how to repeat the run ---- */
+
+static const char macros[] = "\\providecommand{\\nhnumber}[2]{$#2$} % all digits, and what is shown\n"
+                             "\\providecommand{\\nhbreak}{\\penalty0\\hskip0pt\\relax}\n"
+                             "\\definecolor{nhblue}{HTML}{0072B2}\\definecolor{nhred}{HTML}{D55E00}\\definecolor{"
+                             "nhgreen}{HTML}{009E73}\\definecolor{nhpink}{HTML}{CC79A7}"
+                             "\\definecolor{nhorange}{HTML}{E69F00}\\definecolor{nhsky}{HTML}{56B4E9}\n";
+
+void nh_tex_head(nh_tex_writer *w, const char *what)
 {
-    (void)follows;
-    nh_text_addf(context, "%s\n", piece);
+    static const char packages[] = "\\usepackage{amsmath,amssymb,longtable,pgfplots}\n";
+    nh_tex_add(w, "% Written by nhsym " NH_VERSION ".\n");
+    if (w->fragment)
+        nh_text_addf(w->out,
+                     "%% To be read by \\input; the document needs these lines before its beginning:\n%% %s%% "
+                     "\\pgfplotsset{compat=1.16}\n",
+                     packages);
+    else
+        nh_text_addf(w->out,
+                     "\\documentclass[11pt,a4paper]{article}\n%s\\usepackage[margin=2.5cm]{geometry}\n\\pgfplotsset{"
+                     "compat=1.16}\n",
+                     packages);
+    nh_tex_add(w, nh_tex_formula_macro);
+    nh_tex_add(w, macros);
+    if (w->fragment) return;
+    nh_tex_add(w, "\\title{");
+    nh_tex_words(w, w->system->title);
+    if (what) nh_text_addf(w->out, ": %s", what);
+    nh_tex_add(w, "}\n\\author{nhsym " NH_VERSION "}\n\\date{}\n\\begin{document}\n\\maketitle\n");
 }
 
-/* `latex`: the text before it, in LaTeX and followed by its sign; `plain`: the same where the text is no formula of the
- * language. */
-static void display(nh_tex_writer *w, const char *latex, const char *plain, const char *text)
+void nh_tex_repeat(nh_tex_writer *w, const nh_run *run)
 {
-    nh_text formula;
-    nh_text_init(&formula);
-    if (nh_typeset_pieces(text, NH_LATEX, NH_TEX_WIDEST, put_piece, &formula)) {
-        nh_text_addf(w->out, "\\nhformula{%s%s}\n", latex, nh_text_string(&formula));
-    } else { /* such as a formula that is nested too deep */
-        nh_tex_add(w, "\\par{\\footnotesize\\raggedright ");
-        nh_tex_code(w, plain);
-        nh_tex_add(w, plain[0] ? " = " : "");
-        nh_tex_code(w, text);
-        nh_tex_add(w, "\\par}\n");
+    nh_tex_add(w, "\\section{To repeat it}\n\\begin{raggedright}\n");
+    if (run->command) nh_tex_code(w, run->command), nh_tex_add(w, "\n\n");
+    nh_tex_add(w, "nhsym " NH_VERSION ", seed ");
+    nh_tex_number(w, run->seed, 17);
+    if (run->system_path) nh_tex_add(w, ", system file "), nh_tex_code(w, run->system_path);
+    if (run->analysis_path) nh_tex_add(w, ", analysis file "), nh_tex_code(w, run->analysis_path);
+    for (size_t i = 0; nh_version_of(i).name; i++) {
+        nh_tex_add(w, ", ");
+        nh_tex_words(w, nh_version_of(i).name);
+        nh_tex_add(w, " ");
+        nh_tex_words(w, nh_version_of(i).version);
     }
-    nh_text_clear(&formula);
-}
-
-void nh_tex_display(nh_tex_writer *w, const char *label, const char *text)
-{
-    nh_text latex;
-    nh_text_init(&latex);
-    if (label[0] && nh_typeset(label, NH_LATEX, &latex)) nh_text_add(&latex, " = ");
-    display(w, nh_text_string(&latex), label, text);
-    nh_text_clear(&latex);
-}
-
-static void put_formula(nh_tex_writer *w, const char *latex, const char *plain, nh_ex e)
-{
-    char *text = nh_print_string(w->dag, e);
-    nh_text before;
-    nh_text_init(&before);
-    nh_text_addf(&before, "%s%s", latex, latex[0] ? " = " : "");
-    display(w, nh_text_string(&before), plain, text);
-    nh_text_clear(&before);
-    nh_free(text);
-}
-
-static void too_long(nh_tex_writer *w, const char *latex, nh_ex e, double wanted)
-{
-    bool known = (double)nh_complexity(w->dag, e) <= w->written;
-    nh_text words;
-    nh_text_init(&words);
-    nh_formula_left_out(wanted, &words);
-    nh_text_addf(w->out, "\\par $%s$ = ", latex);
-    nh_tex_words(w, nh_text_string(&words));
-    nh_text_addf(w->out, "%s.\\par\n", known ? "; the JSON has it" : "");
-    nh_text_clear(&words);
-}
-
-static void put_names(nh_tex_writer *w, const nh_formula_list *l)
-{
-    if (!l->named) return;
-    nh_tex_add(w, "\\par where\\par\n");
-    for (size_t k = 0; k < l->parts; k++) {
-        nh_text latex;
-        nh_text_init(&latex);
-        if (l->needed[k] && nh_typeset(l->part[k].name, NH_LATEX, &latex))
-            put_formula(w, nh_text_string(&latex), l->part[k].name, l->part[k].value);
-        nh_text_clear(&latex);
-    }
-}
-
-void nh_tex_formulas(nh_tex_writer *w, size_t n, const char *const *latex, const char *const *plain, const nh_ex *e)
-{
-    nh_ex *brief = nh_alloc_array(n + 1, sizeof *brief);
-    for (size_t i = 0; i < n; i++)
-        brief[i] = nh_formula_shortened(w->analysis, w->dag, w->chart ? nh_chart_shown(w->chart, e[i]) : e[i]);
-    nh_formula_list l = nh_formula_list_make(w->dag, n, brief, w->shown, &w->names);
-    for (size_t i = 0; i < n; i++) {
-        if (l.stands[i]) put_formula(w, latex[i], plain[i], l.formula[i]);
-        else too_long(w, latex[i], e[i], l.wanted);
-    }
-    put_names(w, &l);
-    nh_formula_list_clear(&l);
-    nh_free(brief);
+    nh_tex_add(w, ", ");
+    nh_tex_words(w, nh_versions_machine());
+    nh_tex_add(w, ".\n\n\\end{raggedright}\n");
 }

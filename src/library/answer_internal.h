@@ -11,8 +11,6 @@
 NH_ANSWER_TABLE(X)
 #undef X
 
-/* The motion that a request asks for. */
-nh_simulate_request nh_answer_motion(const nh_request *request);
 /* One motion for the page of another command: from the given initial state or a chosen one; NULL: none was computed.
  * The caller frees it. */
 nh_simulation *nh_answer_motion_of_page(const nh_request *request);

@@ -14,49 +14,18 @@ typedef struct {
     nh_motion_plot picture;
 } series;
 
-nh_simulate_request nh_answer_motion(const nh_request *q)
-{
-    static const double usual_spread = 0.1;
-    return (nh_simulate_request){.system_path = q->system_path,
-                                 .analysis_path = q->analysis_path,
-                                 .settings = q->settings,
-                                 .setting = q->setting,
-                                 .chart = q->velocities,
-                                 .initial = q->initial,
-                                 .from = q->from,
-                                 .project = q->project,
-                                 .step = q->step,
-                                 .watch = q->watch,
-                                 .event = q->event,
-                                 .section = q->section,
-                                 .axes = q->axes,
-                                 .scene = q->scene,
-                                 .draw = q->draw,
-                                 .picture = q->picture,
-                                 .method = q->methods ? q->method[0] : NULL,
-                                 .methods = q->methods,
-                                 .only = q->method,
-                                 .accuracy = q->accuracy,
-                                 .ensemble = q->ensemble,
-                                 .spread = q->spread > 0 ? q->spread : usual_spread,
-                                 .until_given = q->until_given,
-                                 .tolerance_given = q->tolerance_given,
-                                 .options = q->options};
-}
-
 nh_simulation *nh_answer_motion_of_page(const nh_request *q)
 {
     nh_error ignored = {0};
-    nh_simulate_request request = nh_answer_motion(q);
+    nh_request request = *q;
     request.analysis_path = NULL;
-    request.also = q->current;
     request.draw = request.picture = true;
     request.accuracy = 0;
     return nh_simulation_create(&request, &ignored);
 }
 
 /* Motions that ended early or missed the requested accuracy. */
-static void complain(const nh_simulation *s, nh_error *error)
+static void complain_of_motion(const nh_simulation *s, nh_error *error)
 {
     if (s->ensemble && s->ensemble->incomplete)
         nh_fail(error, NH_NUMERIC, "", "%zu members did not reach the end; %s", s->ensemble->incomplete,
@@ -74,7 +43,7 @@ static void complain(const nh_simulation *s, nh_error *error)
 
 /* ---- several motions ---- */
 
-static bool run_row(const nh_answer *a, nh_simulate_request q, size_t index, const nh_simulate_row *row, series *all,
+static bool run_row(const nh_answer *a, nh_request q, size_t index, const nh_simulate_row *row, series *all,
                     bool *complete, nh_error *error)
 {
     nh_setting *setting = nh_arena_alloc(a->request->arena, (q.settings + row->settings + 1) * sizeof *setting);
@@ -87,13 +56,13 @@ static bool run_row(const nh_answer *a, nh_simulate_request q, size_t index, con
     if (s) nh_motion_plot_add(&all->picture, s, row->name);
     if (s && all->root) nh_member_json(s, row, &a->run, all->root), *complete = *complete && s->motion->complete;
     if (s && (!all->root || a->request->csv)) nh_member_csv(s, index, row, &all->table);
-    if (s) complain(s, error);
+    if (s) complain_of_motion(s, error);
     nh_simulate_row_blame(row, error);
     nh_simulation_free(s);
     return s != NULL;
 }
 
-static bool run_series(nh_answer *a, const nh_simulate_request *q, const nh_simulate_rows *rows, nh_error *error)
+static bool run_series(nh_answer *a, const nh_request *q, const nh_simulate_rows *rows, nh_error *error)
 {
     series *all = nh_alloc(sizeof *all);
     *all = (series){.root = a->request->json ? nh_json_object() : NULL};
@@ -143,14 +112,14 @@ static const char *write_combinations(const nh_request *q, nh_error *error)
 }
 
 /* The motions of a table together, as an ensemble, or one by one where they differ in more than the initial state. */
-static bool run_table(nh_answer *a, nh_simulate_request *request, const char *table, nh_error *error)
+static bool run_table(nh_answer *a, nh_request *request, const char *table, nh_error *error)
 {
     nh_simulate_rows *rows = nh_arena_alloc(a->request->arena, sizeof *rows);
     if (!table || !nh_simulate_rows_read(a->request->arena, request, table, rows, error)) return false;
-    if (rows->parameters || request->method || request->event || request->section || rows->count == 1)
+    if (rows->parameters || request->methods || request->event || request->section || rows->count == 1)
         return run_series(a, request, rows, error);
     request->ensemble = rows->count;
-    request->table = rows;
+    request->rows = rows;
     request->initial = rows->row[0].initial;
     request->from = rows->row[0].from;
     return (a->part[0] = nh_simulation_create(request, error)) != NULL;
@@ -163,12 +132,12 @@ static bool simulate_check(const nh_request *q, nh_error *error)
     return nh_error_hint(error, "`nhsym benchmark` compares several");
 }
 
-static bool simulate(nh_answer *a, nh_error *error)
+static bool simulation_create(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
-    nh_simulate_request request = nh_answer_motion(q);
+    nh_request request = *q;
     if (q->table || q->overs) return run_table(a, &request, q->table ? q->table : write_combinations(q, error), error);
-    return (a->part[0] = nh_simulation_create(&request, error)) != NULL;
+    return (a->part[0] = nh_simulation_create(q, error)) != NULL;
 }
 
 static void simulation_free(nh_answer *a)
@@ -208,7 +177,7 @@ static void simulation_table(const nh_answer *a, nh_text *csv)
 
 static bool simulation_print(const nh_answer *a, nh_text *out) { return simulation_table(a, out), true; }
 
-static nh_text *next(nh_answer_file *file, size_t *n, const char *name)
+static nh_text *next_file(nh_answer_file *file, size_t *n, const char *name)
 {
     file[*n].name = name;
     nh_text_init(&file[*n].text);
@@ -221,8 +190,8 @@ static size_t simulation_files(const nh_answer *a, nh_answer_file file[NH_ANSWER
     const nh_simulation *s = a->part[0];
     size_t n = 0;
     if (!s) return 0;
-    if (s->events > s->has_section) nh_events_csv(s, next(file, &n, "events.csv"));
-    if (s->has_section) nh_section_csv(s, next(file, &n, "section.csv"));
+    if (s->events > s->has_section) nh_events_csv(s, next_file(file, &n, "events.csv"));
+    if (s->has_section) nh_section_csv(s, next_file(file, &n, "section.csv"));
     return n;
 }
 
@@ -299,14 +268,14 @@ static void simulation_notes(const nh_answer *a, bool verbose, bool printed, nh_
 
 static int simulation_code(const nh_answer *a, nh_error *error)
 {
-    if (a->part[0]) complain(a->part[0], error);
+    if (a->part[0]) complain_of_motion(a->part[0], error);
     return nh_answer_code(false, error);
 }
 
 const nh_answer_kind nh_answer_simulate = {.name = "simulate",
                                            .analysis = true,
                                            .check = simulate_check,
-                                           .create = simulate,
+                                           .create = simulation_create,
                                            .free = simulation_free,
                                            .write = simulation_write,
                                            .json = simulation_json,

@@ -27,23 +27,9 @@ static bool reduce_check(const nh_request *q, nh_error *error)
                 : nh_error_hint(error, "--to takes c, python, sympy, matlab, latex or json, and csv for the motions");
 }
 
-static bool reduce(nh_answer *a, nh_error *error)
+static bool reduction_create(nh_answer *a, nh_error *error)
 {
-    const nh_request *q = a->request;
-    nh_reduce_request request = {.system_path = q->system_path,
-                                 .settings = q->settings,
-                                 .setting = q->setting,
-                                 .chart = q->velocities,
-                                 .initial = q->initial,
-                                 .project = q->project,
-                                 .weak = q->weak,
-                                 .group = q->group,
-                                 .chain = q->chain,
-                                 .inner = q->inner,
-                                 .accuracy = q->accuracy,
-                                 .equations = q->equations,
-                                 .options = q->options};
-    return (a->part[0] = nh_reduction_create(&request, error)) != NULL;
+    return (a->part[0] = nh_reduction_create(a->request, error)) != NULL;
 }
 
 static void reduction_free(nh_answer *a) { nh_reduction_free(a->part[0]); }
@@ -87,7 +73,7 @@ static bool reduction_print(const nh_answer *a, nh_text *out)
 }
 
 /* Gives an error unless all stages were compared with the full motion, to the end, and agree. */
-static void complain(const nh_reduction *r, double accuracy, nh_error *error)
+static void complain_of_stages(const nh_reduction *r, double accuracy, nh_error *error)
 {
     for (size_t i = 0; i < r->stages && error->code == NH_OK; i++) {
         const nh_reduction_stage *s = &r->stage[i];
@@ -110,13 +96,13 @@ static void complain(const nh_reduction *r, double accuracy, nh_error *error)
 static int reduction_code(const nh_answer *a, nh_error *error)
 {
     const nh_reduction *r = a->part[0];
-    if (a->request->accuracy > 0 && !r->partial) complain(r, a->request->accuracy, error);
+    if (a->request->accuracy > 0 && !r->partial) complain_of_stages(r, a->request->accuracy, error);
     return nh_answer_code(r->partial, error);
 }
 
 const nh_answer_kind nh_answer_reduce = {.name = "reduce",
                                          .check = reduce_check,
-                                         .create = reduce,
+                                         .create = reduction_create,
                                          .free = reduction_free,
                                          .write = reduction_write,
                                          .json = reduction_json,
@@ -153,24 +139,11 @@ static const char *prefix_of(const nh_answer *a)
 
 static void export_free(nh_answer *a) { nh_export_free(a->part[0]); }
 
-static bool export(nh_answer *a, nh_error *error)
+static bool export_create(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
-    nh_export_request request = {.command = q->line,
-                                 .system_path = q->system_path,
-                                 .settings = q->settings,
-                                 .setting = q->setting,
-                                 .chart = q->velocities,
-                                 .initial = q->initial,
-                                 .group = q->group,
-                                 .weak = q->weak,
-                                 .of = q->of,
-                                 .input = q->input,
-                                 .to = q->to,
-                                 .name = q->name,
-                                 .options = q->options};
     const char *prefix;
-    nh_export *x = nh_export_create(&request, error);
+    nh_export *x = nh_export_create(q, error);
     a->part[0] = x;
     if (x && nh_export_prefix(x, q->name, &prefix, error) &&
         (!target_given(q) || nh_export_possible(x, target_of(a), error)))
@@ -224,7 +197,7 @@ static int export_code(const nh_answer *a, nh_error *error)
 
 const nh_answer_kind nh_answer_export = {.name = "export",
                                          .check = export_check,
-                                         .create = export,
+                                         .create = export_create,
                                          .free = export_free,
                                          .write = export_write,
                                          .json = export_json,

@@ -4,6 +4,7 @@
 
 #include "base/context.h"
 #include "base/files.h"
+#include "evaluate/tape.h"
 #include "library/request.h"
 
 struct nh_problem {
@@ -27,5 +28,19 @@ bool nh_library_run(void (*job)(void *), void *data);
 bool nh_library_try(void (*job)(void *), void *data, nh_error *error);
 /* The same, in the problem's context: with its files and its time limit. */
 bool nh_problem_run(nh_problem *problem, void (*job)(void *), void *data, nh_error *error);
+
+/* Many states of a caller as batches of a tape with the inputs t, positions, velocities; its arrays are not copied. */
+typedef struct {
+    size_t inputs, count; /* 1 + 2 m; states */
+    const double *t, *q, *v;
+    const double **in;     /* of the batch */
+    double zero[NH_BATCH]; /* the time where none is given */
+} nh_columns;
+
+void nh_columns_open(nh_columns *columns, size_t coordinates, size_t count, const double *t, const double *q,
+                     const double *v);
+/* Sets `in` to the states from number `from` on; how many these are, 0 at the end. */
+size_t nh_columns_next(nh_columns *columns, size_t from);
+void nh_columns_close(nh_columns *columns);
 
 #endif

@@ -139,14 +139,13 @@ static bool next_pair(nh_arena *arena, const char **at, const char *what, const 
 static bool read_parameters(nh_request *r, const char *set, nh_error *error)
 {
     const char *name, *value;
-    r->setting = nh_arena_alloc(r->arena, (set ? strlen(set) : 1) * sizeof *r->setting);
     while (set && next_pair(r->arena, &set, "set", &name, &value, error)) {
         double x;
         if (!nh_request_number(value, &x)) {
             nh_fail(error, NH_USAGE, "", "set: `%s` needs a number, found `%s`", name, value);
             return nh_error_hint_number(error, value);
         }
-        r->setting[r->settings++] = (nh_setting){.name = name, .value = x};
+        nh_request_setting(r, (nh_setting){.name = name, .value = x});
     }
     return error->code == NH_OK;
 }
@@ -259,11 +258,9 @@ static void drive(void *argument)
     driving *d = argument;
     nh_problem *p = d->problem;
     nh_request *r = &p->request;
-    nh_setting *before = r->setting;
+    const nh_setting *before = r->setting;
     const char *words = r->system_words;
     size_t count = r->settings;
-    r->setting = nh_arena_alloc(p->arena, (count + 1) * sizeof *r->setting);
-    if (count) memcpy(r->setting, before, count * sizeof *before);
     nh_system *system =
         nh_request_input(r, nh_arena_strdup(p->arena, d->parameter), nh_arena_strdup(p->arena, d->input), d->error)
             ? nh_system_read(r->system_path, r->settings, r->setting, d->error)

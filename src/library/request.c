@@ -39,7 +39,7 @@ bool nh_request_velocities(nh_request *q, const char *word, nh_error *error)
     static const char *const names[] = {"auto", "quasi", "coordinates"};
     for (int i = 0; i < 3; i++) {
         if (strcmp(word, names[i])) continue;
-        q->velocities = (nh_chart_choice)i;
+        q->chart = (nh_chart_choice)i;
         return true;
     }
     nh_fail(error, NH_USAGE, "", "there are no velocities `%s`", word);
@@ -79,11 +79,19 @@ void nh_request_typed(nh_request *q, const char *option, const char *name, const
     *words = nh_arena_printf(q->arena, "%s --%s \"%s=%s\"", *words ? *words : "", option, name, text);
 }
 
+void nh_request_setting(nh_request *q, nh_setting setting)
+{
+    nh_setting *all = nh_arena_alloc(q->arena, (q->settings + 1) * sizeof *all);
+    if (q->settings) memcpy(all, q->setting, q->settings * sizeof *all);
+    all[q->settings++] = setting;
+    q->setting = all;
+}
+
 bool nh_request_input(nh_request *q, const char *name, const char *text, nh_error *error)
 {
     const char *input = nh_input_text(q->arena, name, text, error);
     if (!input) return false;
-    q->setting[q->settings++] = (nh_setting){.name = name, .input = input};
+    nh_request_setting(q, (nh_setting){.name = name, .input = input});
     nh_request_typed(q, "input", name, text);
     return true;
 }
