@@ -151,14 +151,14 @@ static nh_residue *compressed(const nh_staircase_matrices *m, nh_prime f, slong 
 }
 
 bool nh_compression_determinant(const nh_staircase_matrices *m, nh_prime f, size_t rank, uint64_t seed,
-                                nh_residue_surface *out)
+                                nh_residue_polynomial *out)
 {
     square s = {.degree = m->degree, .size = (slong)rank, .m = nh_alloc_array(m->degree + 1, sizeof *s.m)};
     nh_residue *power = compressed(m, f, s.size, seed);
     nmod_poly_t p;
     nmod_poly_init(p, f.p);
     for (size_t i = 0; i <= m->degree; i++) nmod_mat_init(s.m[i], s.size, s.size, f.p);
-    *out = (nh_residue_surface){.degree = {m->degree * rank, m->second * rank}};
+    *out = (nh_residue_polynomial){.degree = {m->degree * rank, m->second * rank}};
     size_t width = out->degree[0] + 1, count = out->degree[1] + 1;
     out->coefficient = nh_alloc_array(width * count, sizeof *out->coefficient);
     for (size_t k = 0; k < count && !nh_late(); k++) {

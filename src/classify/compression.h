@@ -8,18 +8,11 @@
 
 #include "classify/staircase.h"
 
-/* sum of coefficient[(k * (degree[1] + 1) + j) * (degree[0] + 1) + i] lambda^i mu^j nu^k modulo a prime; degree[2] is 0
- * without a third parameter.  The coefficients are on the heap. */
-typedef struct {
-    size_t degree[3];
-    nh_residue *coefficient;
-} nh_residue_surface;
-
 /* The generic rank R of the matrices, at random residues. */
 size_t nh_compression_rank(const nh_staircase_matrices *matrices, nh_prime field);
 
 /* The determinant of one compression; each seed chooses another one.  False: the deadline is over. */
 bool nh_compression_determinant(const nh_staircase_matrices *matrices, nh_prime field, size_t rank, uint64_t seed,
-                                nh_residue_surface *out);
+                                nh_residue_polynomial *out);
 
 #endif

@@ -25,7 +25,7 @@ static bool any_depends(const nh_parametric *f, size_t n, const nh_ex *e)
 {
     const nh_model *o = f->counter.equations->model;
     bool any = false;
-    for (size_t i = 0; i < n; i++) any |= nh_depends(o->dag, e[i], o->parameter[f->parameter]);
+    for (size_t i = 0; i < n; i++) any |= nh_depends(o->dag, e[i], o->parameter[f->parameter[0]]);
     return any;
 }
 
@@ -130,7 +130,7 @@ static void add_quadratic(const nh_jet_ring *r, size_t n, size_t l, const nh_res
         }
 }
 
-static bool density(nh_parametric *f, nh_parametric_series *s, nh_residue lambda, nh_residue mu, nh_residue *out)
+static bool density(nh_parametric *f, nh_parametric_series *s, nh_residue *out)
 {
     const nh_jet_equations *x = f->counter.equations;
     const nh_jet_ring *r = s->ring;
@@ -138,7 +138,7 @@ static bool density(nh_parametric *f, nh_parametric_series *s, nh_residue lambda
     size_t motion = (1 + x->fields * kept + n * count) * e;
     nh_residue *G = nh_alloc_array(motion + (n + 2) * e, sizeof *G), *rate = G + (1 + x->fields * kept) * e;
     nh_residue *divergence = G + motion, *work = divergence + (n + 1) * e;
-    bool good = nh_parametric_motion(f, r, s->coordinate, lambda, mu, G);
+    bool good = nh_parametric_motion(f, r, s->coordinate, G);
     memset(out, 0, s->length * sizeof *out);
     memcpy(out, G, e * sizeof *out);
     for (size_t l = 0; l < n && good; l++) {
@@ -158,13 +158,10 @@ static bool density(nh_parametric *f, nh_parametric_series *s, nh_residue lambda
     return good;
 }
 
-bool nh_parametric_linear_value(nh_parametric *f, nh_parametric_series *s, nh_residue lambda, nh_residue mu,
-                                nh_residue *out)
+bool nh_parametric_linear_value(nh_parametric *f, nh_parametric_series *s, nh_residue *out)
 {
-    nh_jet_equations *x = f->counter.equations;
-    if (!f->linear->coefficient) return density(f, s, lambda, mu, out);
-    x->at[x->coordinates + f->parameter] = lambda;
-    if (f->second != SIZE_MAX) x->at[x->coordinates + f->second] = mu;
+    if (!f->linear->coefficient) return density(f, s, out);
+    nh_parametric_set(f);
     f->counter.work += (double)s->ring->pairs[s->ring->size] * (double)entries(f);
     return expressions(f, s->ring, out);
 }

@@ -230,9 +230,10 @@ bool nh_staircase(const nh_sparse_pencil *p, nh_prime f, double *products, nh_re
         if (solved) nmod_mat_charpoly(chi, X);
         nmod_mat_clear(X);
     }
-    out->degree = (size_t)nmod_poly_degree(chi);
-    out->coefficient = nh_alloc_array(out->degree + 1, sizeof *out->coefficient);
-    for (size_t j = 0; j <= out->degree; j++) out->coefficient[j] = (nh_residue)nmod_poly_get_coeff_ui(chi, (slong)j);
+    *out = (nh_residue_polynomial){.degree = {(size_t)nmod_poly_degree(chi)}};
+    out->coefficient = nh_alloc_array(out->degree[0] + 1, sizeof *out->coefficient);
+    for (size_t j = 0; j <= out->degree[0]; j++)
+        out->coefficient[j] = (nh_residue)nmod_poly_get_coeff_ui(chi, (slong)j);
     nmod_poly_clear(chi);
     *nullity = p->columns * (p->degree ? p->degree : 1) - x.used - (none ? 0 : (size_t)k); /* with companions */
     clear(&x);

@@ -16,15 +16,18 @@
 
 #include "classify/sparse_pencil.h"
 
-/* A polynomial modulo a prime, from the constant term on; on the heap. */
+enum { NH_MOST_PARAMETERS = 3 };
+
+/* sum of coefficient[(k * (degree[1] + 1) + j) * (degree[0] + 1) + i] lambda^i mu^j nu^k modulo a prime; a parameter
+ * that does not occur has degree 0.  The coefficients are on the heap. */
 typedef struct {
-    size_t degree;
+    size_t degree[NH_MOST_PARAMETERS];
     nh_residue *coefficient;
 } nh_residue_polynomial;
 
-/* chi, monic, and the generic nullity: the columns less the rank for almost all values.  Takes at most `products`
- * products of residues, which becomes what is left, negative when it did not suffice.  Returns false then, and after
- * the deadline (base/progress.h). */
+/* chi(lambda), monic, and the generic nullity: the columns less the rank for almost all values.  Takes at most
+ * `products` products of residues, which becomes what is left, negative when it did not suffice.  Returns false then,
+ * and after the deadline (base/progress.h). */
 bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, double *products, nh_residue_polynomial *chi,
                   size_t *nullity);
 
