@@ -119,7 +119,7 @@ NH_API nh_verification *nh_verify_current(nh_problem *problem, const char *curre
 NH_API nh_verification *nh_verify_field(nh_problem *problem, const char *field, nh_error *error);     /* "Z0=1; phi=phi'; x=x'" */
 NH_API bool nh_verification_holds(const nh_verification *verification);
 NH_API bool nh_verification_proved(const nh_verification *verification);
-/* Over one, two or three parameters: "k", "B, eps".  `shape`: only currents whose coefficients do not depend on cyclic coordinates. */
+/* Over up to three parameters: "k", "B, eps".  `shape`: only currents with coefficients free of cyclic coordinates. */
 NH_API nh_classified   *nh_classify_over(nh_problem *problem, const char *parameter, bool shape, nh_error *error);
 
 /* A comparison of integrators; NULL, or members that are NULL, 0 or false: all methods, 5 seconds. */

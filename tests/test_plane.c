@@ -122,8 +122,8 @@ Test(plane, determinants_vanish_where_rank_is_lost)
         }
     nh_staircase_matrices m = {.degree = 1, .second = 1, .rows = rows, .columns = columns, .entry = entry};
     nh_residue_polynomial d;
-    cr_assert_eq(nh_compression_rank(&m, f), core);
-    cr_assert(nh_compression_determinant(&m, f, core, 5, &d));
+    cr_assert_eq(nh_staircase_generic_rank(&m, f), core);
+    cr_assert(nh_staircase_determinant(&m, f, core, 5, &d));
     cr_expect_eq(at(f, &d, 11, 11), 0);
     cr_expect_eq(at(f, &d, 3, 2), 0);
     for (nh_residue k = 0; k < 20; k++) cr_expect_neq(at(f, &d, 3 + k, 30 + 2 * k), 0);

@@ -5,7 +5,6 @@
 
 #include "base/progress.h"
 #include "classify/classify_internal.h"
-#include "classify/linear_pencil.h"
 #include "classify/special_bound.h"
 
 enum { least_primes = 4 };
@@ -25,7 +24,7 @@ static bool pencil_of(search *s, const nh_parametric_series *x, size_t degree, n
                       nh_parametric_variable *variable)
 {
     memset(variable, 0, 2 * sizeof *variable);
-    if (s->q.linear) return nh_linear_pencil(&s->family, x, degree, s->q.unknowns, out);
+    if (s->q.linear) return nh_parametric_linear_pencil(&s->family, x, degree, s->q.unknowns, out);
     return nh_parametric_pencil(&s->family, x, degree, parity_of(x, degree), s->q.unknowns, out, variable);
 }
 
@@ -69,13 +68,13 @@ static bool compressed_determinant(search *s, size_t degree, const nh_parametric
     bool good = pencil_of(s, x, degree, &pencil, variable);
     if (good) {
         nh_staircase_matrices m = nh_staircase_reduce(&pencil, f, &s->products);
-        size_t rank = nh_compression_rank(&m, f), size = rank * (m.degree > m.second ? m.degree : m.second);
+        size_t rank = nh_staircase_generic_rank(&m, f), size = rank * (m.degree > m.second ? m.degree : m.second);
         row->unknowns = pencil.columns;
         row->power[0] = pencil.degree;
         row->power[1] = pencil.second;
         if (size > row->size) row->size = size;
         good = size <= s->q.plane && s->products >= 0 && !nh_late();
-        good = good && nh_compression_determinant(&m, f, rank, seed, out);
+        good = good && nh_staircase_determinant(&m, f, rank, seed, out);
         for (int v = 0; v < 2 && good; v++) nh_parametric_back(&variable[v], v, f, out);
         nh_free(m.entry);
     }

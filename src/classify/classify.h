@@ -6,7 +6,7 @@
  * values are zeros of polynomials, modulo every prime and at every point [docs/method.md, sec. 11]:
  *
  *     one parameter      the product chi of the elementary divisors of A (staircase.h) at two points: values
- *     lambda, mu         determinants of compressions at three points (compression.h): curves, and isolated points,
+ *     lambda, mu         determinants of compressions at three points (staircase.h): curves, and isolated points,
  *                        whose mu is among the roots of a polynomial: a wall
  *     lambda, mu, nu     their sections at several nu: surfaces, and walls, cylinders over curves in mu and nu
  *

@@ -3,7 +3,6 @@
 
 #include "base/progress.h"
 #include "classify/classify_internal.h"
-#include "classify/linear_pencil.h"
 
 enum { most_points = 60, steps_beyond = 1, first_beyond = 2, root_primes = 40 };
 
@@ -123,7 +122,8 @@ static bool dimension_at(search *s, nh_prime f, size_t level, size_t order, cons
     if (!x) return false;
     nh_residue *values = nh_alloc_array(x->length, sizeof *values);
     nh_parametric_at(x, lambda, p->infinite, values);
-    bool good = nh_linear_dimension(&s->family, x, values, level, s->count.work - s->family.counter.work, out);
+    bool good =
+        nh_parametric_linear_dimension(&s->family, x, values, level, s->count.work - s->family.counter.work, out);
     nh_free(values);
     nh_parametric_series_free(x);
     return good;

@@ -11,7 +11,7 @@
 #ifndef NH_COMMON_ZEROS_H
 #define NH_COMMON_ZEROS_H
 
-#include "classify/compression.h"
+#include "classify/staircase.h"
 
 /* Special zeros, degenerate ones, and what contains the isolated ones (1 where lambda is the only parameter). */
 typedef enum { NH_ZEROS_SPECIAL, NH_ZEROS_DEGENERATE, NH_ZEROS_ACROSS, NH_ZEROS_PARTS } nh_zeros_part;

@@ -74,7 +74,7 @@ static bool inside_functions(const nh_parametric *f)
     return false;
 }
 
-static bool any_depends(const nh_parametric *f, size_t n, const nh_ex *e)
+bool nh_parametric_depends(const nh_parametric *f, size_t n, const nh_ex *e)
 {
     bool any = false;
     for (size_t i = 0; i < n; i++) any |= depends(f, e[i]);
@@ -121,7 +121,8 @@ static void look(nh_parametric *f)
     bool constant = true;
     for (size_t k = 0; k < f->parameters; k++) constant &= !in_equations(f, x->model->parameter[f->parameter[k]]);
     if (inside_functions(f)) f->obstacle = "the parameter occurs inside of a function or a root";
-    else if (!plain(f) && any_depends(f, x->m, x->rho)) f->obstacle = "the constraints depend on the parameter";
+    else if (!plain(f) && nh_parametric_depends(f, x->m, x->rho))
+        f->obstacle = "the constraints depend on the parameter";
     else if (constant) f->obstacle = nh_parametric_constant;
     if (f->obstacle) return;
     nh_parametric_denominators(f, x->n * x->n, x->M, f->of_mass);
@@ -214,8 +215,7 @@ void nh_parametric_determinant(const nh_jet_ring *r, size_t n, nh_residue *M, nh
     nh_free(inverse);
 }
 
-/* sum := sum times factor */
-static void times(const nh_jet_ring *r, nh_residue *sum, const nh_residue *factor, nh_residue *work)
+void nh_parametric_times(const nh_jet_ring *r, nh_residue *sum, const nh_residue *factor, nh_residue *work)
 {
     nh_jet_mul(r, sum, factor, work);
     memcpy(sum, work, r->size * sizeof *sum);
@@ -238,7 +238,8 @@ static bool multiplier(nh_parametric *f, const nh_jet_ring *r, const nh_residue 
     if (good) nh_parametric_determinant(r, x->n, M, out);
     for (size_t i = 0; i < f->factors && good; i++) {
         good = nh_jet_eval_all(v, 1, &f->factor[i], value);
-        for (size_t k = 0; k < f->of_mass[i] * x->n + f->of_rest[i] && good; k++) times(r, out, value, work);
+        for (size_t k = 0; k < f->of_mass[i] * x->n + f->of_rest[i] && good; k++)
+            nh_parametric_times(r, out, value, work);
     }
     nh_jet_eval_free(v);
     nh_free(M);
@@ -311,7 +312,7 @@ bool nh_parametric_motion(nh_parametric *f, const nh_jet_ring *r, nh_residue *co
     good = good && multiplier(f, r, coordinate, out) && out[0] &&
            nh_jet_equations_accelerations(x, r, coordinate, out + rates_at);
     nh_residue *work = nh_alloc_array(r->size, sizeof *work);
-    for (size_t k = r->size; k < length && good; k += r->size) times(r, out + k, out, work);
+    for (size_t k = r->size; k < length && good; k += r->size) nh_parametric_times(r, out + k, out, work);
     nh_free(work);
     f->counter.work += (double)r->pairs[r->size] * (x->products + (double)length / (double)r->size);
     return good;

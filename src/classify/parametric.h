@@ -98,6 +98,14 @@ bool nh_parametric_pencil(const nh_parametric *family, const nh_parametric_serie
 void nh_parametric_back(const nh_parametric_variable *variable, int v, nh_prime field,
                         nh_residue_polynomial *polynomial);
 
+/* The same for one level of a linear family, in lambda and mu themselves. */
+bool nh_parametric_linear_pencil(const nh_parametric *family, const nh_parametric_series *series, size_t level,
+                                 size_t most, nh_sparse_pencil *out);
+/* P of a linear family where its coefficients are `values` (nh_parametric_at); false: it would take more work than
+ * `most`. */
+bool nh_parametric_linear_dimension(const nh_parametric *family, const nh_parametric_series *series,
+                                    const nh_residue *values, size_t level, double most, size_t *out);
+
 /* The number of coordinates of the series, and the largest of their weights. */
 size_t nh_parametric_kept(const nh_parametric *family);
 /* 0: no regular point was found, or the time limit was reached */

@@ -6,6 +6,10 @@
 
 /* The highest powers of functions of the parameter that these expressions are divided by join the factors. */
 void nh_parametric_denominators(nh_parametric *family, size_t n, const nh_ex *e, size_t *power);
+/* Does one of these expressions depend on a parameter? */
+bool nh_parametric_depends(const nh_parametric *family, size_t n, const nh_ex *e);
+/* sum := sum times factor, for series; `work` has room for one. */
+void nh_parametric_times(const nh_jet_ring *ring, nh_residue *sum, const nh_residue *factor, nh_residue *work);
 /* det M for an n x n matrix of series, which is destroyed; zero where M is singular at the point. */
 void nh_parametric_determinant(const nh_jet_ring *ring, size_t n, nh_residue *M, nh_residue *out);
 
