@@ -443,6 +443,9 @@ bool nh_staircase_determinant(const nh_staircase_matrices *m, nh_prime f, size_t
     nh_free(power);
     nh_free(s.m);
     bool good = !nh_late();
-    if (!good) nh_free(out->coefficient);
+    if (!good) {
+        nh_free(out->coefficient);
+        *out = (nh_residue_polynomial){.coefficient = NULL};
+    }
     return good;
 }
