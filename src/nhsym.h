@@ -106,7 +106,7 @@ typedef struct nh_analysis     nh_analysis;     /* currents and symmetries */
 typedef struct nh_simulation   nh_simulation;   /* one motion */
 typedef struct nh_reduction    nh_reduction;    /* the symmetry group and the reduced equations */
 typedef struct nh_verification nh_verification; /* of one current or field */
-typedef struct nh_classified   nh_classified;   /* the values of one parameter at which there are more currents */
+typedef struct nh_classified   nh_classified;   /* the values of parameters at which there are more currents */
 typedef struct nh_benchmark    nh_benchmark;    /* integrators compared on one motion */
 typedef struct nh_linearized   nh_linearized;   /* the linear equations at a state, or along a family of states */
 typedef struct nh_export       nh_export;       /* equations, currents and reductions as code */
@@ -119,7 +119,7 @@ NH_API nh_verification *nh_verify_current(nh_problem *problem, const char *curre
 NH_API nh_verification *nh_verify_field(nh_problem *problem, const char *field, nh_error *error);     /* "Z0=1; phi=phi'; x=x'" */
 NH_API bool nh_verification_holds(const nh_verification *verification);
 NH_API bool nh_verification_proved(const nh_verification *verification);
-/* `shape`: only currents whose coefficients do not depend on cyclic coordinates. */
+/* Over up to three parameters: "k", "B, eps".  `shape`: only currents with coefficients free of cyclic coordinates. */
 NH_API nh_classified   *nh_classify_over(nh_problem *problem, const char *parameter, bool shape, nh_error *error);
 
 /* A comparison of integrators; NULL, or members that are NULL, 0 or false: all methods, 5 seconds. */

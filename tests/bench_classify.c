@@ -40,21 +40,21 @@ static void put_values(const nh_classified *x)
 {
     const nh_classification *c = x->classification;
     size_t written = 0;
-    for (size_t k = 0; k < c->values; k++) {
-        const nh_classify_value *v = &c->value[k];
+    for (size_t k = 0; k < c->specials; k++) {
+        const nh_classify_special *v = &c->special[k];
         if (!v->first && !v->open) continue;
         printf("%s%s from degree %zu", written++ ? "; " : "", nh_classified_words(x, &v->polynomial), v->first
                ? v->first : v->open);
         if (v->first)
             printf(" (%zu instead of %zu, %s)", v->number[v->first].bound, c->row[v->first - 1].number.bound,
-                   x->value[k].complete >= v->first ? "proved" : "counted");
+                   x->part[k].finding.complete >= v->first ? "proved" : "counted");
         else printf(" (not decided)");
     }
     printf("%s | ", written ? "" : "none");
     written = 0;
-    for (size_t k = 0; k < c->values; k++)
-        if (c->value[k].degenerate)
-            printf("%s%s", written++ ? "; " : "", nh_classified_words(x, &c->value[k].polynomial));
+    for (size_t k = 0; k < c->specials; k++)
+        if (c->special[k].degenerate)
+            printf("%s%s", written++ ? "; " : "", nh_classified_words(x, &c->special[k].polynomial));
 }
 
 static void row(size_t index)
@@ -68,7 +68,7 @@ static void row(size_t index)
     setting.top = FAMILIES[index].top, setting.bottom = FAMILIES[index].bottom;
     snprintf(path, sizeof path, "tests/data/classify/%s.yaml", FAMILIES[index].file);
     nh_classify_request q = {.system_path = path, .settings = setting.name != NULL, .setting = &setting,
-                             .over = FAMILIES[index].over, .shape = FAMILIES[index].shape};
+                             .over = {FAMILIES[index].over}, .shape = FAMILIES[index].shape};
     nh_options_default(&q.options);
     q.options.degree = FAMILIES[index].degree;
     q.options.theorem = most_primes;
@@ -82,7 +82,7 @@ static void row(size_t index)
     printf("| %s", x->title);
     if (setting.name) printf(", %s = %" PRId64, setting.name, setting.top);
     if (setting.name && setting.bottom != 1) printf("/%" PRId64, setting.bottom);
-    printf("%s | %s | %zu | ", x->shape ? ", coefficients free of cyclic coordinates" : "", x->over, c->rows);
+    printf("%s | %s | %zu | ", x->shape ? ", coefficients free of cyclic coordinates" : "", x->over[0], c->rows);
     for (size_t d = 0; d < c->rows; d++)
         printf("%s%s%zu", d ? ", " : "", c->row[d].number.bound == c->row[d].known ? "" : "<= ",
                c->row[d].number.bound);
@@ -121,22 +121,22 @@ static void answer(size_t index, const char *over, nh_text *names, nh_text *spec
                    double *height)
 {
     nh_error error = {0};
-    nh_classify_request q = {.system_path = QUESTIONS[index].path, .over = over, .of = QUESTIONS[index].of};
+    nh_classify_request q = {.system_path = QUESTIONS[index].path, .over = {over}, .of = QUESTIONS[index].of};
     nh_options_default(&q.options);
     q.options.count_work = 1e10;
     nh_classified *x = nh_classify_system(&q, &error);
     if (!x) return;
     const nh_classification *c = x->classification;
     if (!c->obstacle) nh_text_addf(names, "%s%s", nh_text_string(names)[0] ? ", " : "", over);
-    for (size_t k = 0; k < c->values; k++) {
-        const nh_classify_value *v = &c->value[k];
+    for (size_t k = 0; k < c->specials; k++) {
+        const nh_classify_special *v = &c->special[k];
         const char *words = nh_classified_words(x, &v->polynomial);
         nh_text *to = v->degenerate ? degenerate : special;
         if (!v->degenerate && !v->first && !v->open) continue;
         nh_text_addf(to, "%s%s", nh_text_string(to)[0] ? "; " : "", words);
         if (!v->degenerate)
             nh_text_addf(to, " (%zu, %s)", v->number[v->first ? v->first : v->open].bound, !v->first ? "not decided"
-                         : x->value[k].complete >= v->first ? "proved" : "counted");
+                         : x->part[k].finding.complete >= v->first ? "proved" : "counted");
     }
     if (c->rows && c->row[0].height < *height) *height = c->row[0].height;
     if (c->rows) *number = c->row[0].number.bound;
@@ -174,14 +174,19 @@ static void question_rows(void)
     for (size_t i = 0; i < sizeof QUESTIONS / sizeof *QUESTIONS; i++) question_row(i);
 }
 
-/* ---- two parameters ---- */
+/* ---- two and three parameters ---- */
 
 static const struct {
-    const char *file, *first, *second;
-    double degree;
+    const char *file, *over[3];
+    double degree, planes;
     bool shape;
-} PLANES[] = {{"henon_heiles", "B", "eps", 6, false}, {"quartic", "mu", "b", 4, false}, {"cubic", "c", "d", 4, false}, {"heavy_tops", "b", "c", 4, true},
-              {"contact_quadratic", "b", "c", 2, false}, {"knife_cubic", "b", "c", 2, false}};
+} SEVERAL[] = {{"henon_heiles", {"B", "eps"}, 6, 0, false},      {"quartic", {"mu", "b"}, 4, 0, false},
+               {"cubic", {"c", "d"}, 4, 0, false},               {"heavy_tops", {"b", "c"}, 4, 0, true},
+               {"contact_quadratic", {"b", "c"}, 2, 0, false},   {"knife_cubic", {"b", "c"}, 2, 0, false},
+               {"henon_heiles", {"A", "B", "eps"}, 4, 4, false}, {"quartic_three", {"B", "mu", "b"}, 4, 4, false},
+               {"cubic_three", {"b", "c", "d"}, 2, 4, false},    {"contact_three", {"a", "b", "c"}, 2, 4, false},
+               {"knife_three", {"a", "b", "c"}, 2, 4, false},    {"suslov_three", {"J", "a", "b"}, 2, 2, true},
+               {"tops_three", {"l", "b", "c"}, 2, 2, true}};
 
 /* The lists of [NakagawaYoshida2001] and [AMNS2018]: all homogeneous potentials of degree three, and all real ones of degree four, that have a second
  * integral up to degree four, but for turns of the plane, as far as the families hold them; turned by complex angles some of them come again. */
@@ -223,130 +228,63 @@ static bool compare(const char *file, size_t found, const char *items, nh_text *
     return !listed || (!missing && found == listed);
 }
 
-static void put_plane(const nh_classified_plane *x, nh_text *items, size_t *found)
+/* "(B, eps) = (1, 1/3) from degree 2": as the list has it, then with the number of integrals. */
+static void put_places(const nh_classified *x, nh_text *items)
 {
-    size_t rows = x->plane->rows, written = 0;
-    for (size_t k = 0; k < x->plane->curves; k++) {
-        const nh_plane_curve *c = &x->plane->curve[k];
-        if (!c->first || c->degenerate) continue;
-        nh_text_addf(items, "%s from degree %zu;", nh_classified_surface_words(x->family, &c->polynomial), c->first);
-        printf("%s%s from degree %zu (%zu, %s)", written++ ? "; " : "", nh_classified_surface_words(x->family, &c->polynomial), c->first,
-               c->number[c->first].bound, x->curve[k].complete ? "proved" : "counted");
-    }
-    for (size_t k = 0; k < x->points; k++) {
-        const nh_classified_point *p = &x->point[k];
-        nh_text_addf(items, "(%s, %s) from degree %zu;", p->value[1], p->value[0], p->first);
-        printf("%s(%s, %s) from degree %zu (%zu, %s)", written++ ? "; " : "", p->value[1], p->value[0], p->first,
-               p->number[p->first].bound, p->at->complete >= p->first ? "proved" : "counted");
-    }
-    *found = written;
-    printf("%s | ", written ? "" : "none");
-    written = 0;
-    for (size_t k = 0; k < x->plane->curves; k++)
-        if (x->plane->curve[k].degenerate) printf("%s%s", written++ ? "; " : "", nh_classified_surface_words(x->family, &x->plane->curve[k].polynomial));
-    printf(" | %.0e |", rows ? x->plane->row[rows - 1].height : 0);
-}
-
-static bool plane_row(size_t index, nh_text *table)
-{
-    char path[200];
-    nh_error error;
-    nh_error_clear(&error);
-    nh_setting setting = {.name = "A", .value = 1, .top = 1, .bottom = 1};
-    snprintf(path, sizeof path, "tests/data/classify/%s.yaml", PLANES[index].file);
-    nh_classify_request q = {.system_path = path, .settings = !strcmp(PLANES[index].file, "henon_heiles"),
-                             .setting = &setting, .over = PLANES[index].first, .second = PLANES[index].second, .shape = PLANES[index].shape};
-    nh_options_default(&q.options);
-    q.options.degree = PLANES[index].degree;
-    double begin = nh_clock();
-    nh_classified_plane *x = nh_classify_plane_system(&q, &error);
-    if (!x) {
-        printf("| %s | %s |\n", PLANES[index].file, error.what);
-        return false;
-    }
-    nh_text items;
-    size_t found;
-    nh_text_init(&items);
-    printf("| %s%s | %s, %s | %zu | ", x->family->title, x->family->shape ? ", coefficients free of cyclic coordinates" : "", x->over[1], x->over[0], x->plane->rows);
-    for (size_t d = 0; d < x->plane->rows; d++)
-        printf("%s%s%zu", d ? ", " : "", x->plane->row[d].number.bound == x->plane->row[d].known ? "" : "<= ",
-               x->plane->row[d].number.bound);
-    printf(" | ");
-    put_plane(x, &items, &found);
-    printf(" %.1f |\n", nh_clock() - begin);
-    fflush(stdout);
-    bool good = compare(PLANES[index].file, found, nh_text_string(&items), table);
-    nh_text_clear(&items);
-    nh_classified_plane_free(x);
-    return good;
-}
-
-/* ---- three parameters ---- */
-
-static const struct {
-    const char *file, *over[3];
-    double degree, planes;
-    bool shape;
-} SPACES[] = {{"henon_heiles", {"A", "B", "eps"}, 4, 4, false}, {"quartic_three", {"B", "mu", "b"}, 4, 4, false},
-              {"cubic_three", {"b", "c", "d"}, 2, 4, false},    {"contact_three", {"a", "b", "c"}, 2, 4, false},
-              {"knife_three", {"a", "b", "c"}, 2, 4, false},    {"suslov_three", {"J", "a", "b"}, 2, 2, true},
-              {"tops_three", {"l", "b", "c"}, 2, 2, true}};
-
-static void put_space(const nh_classified_space *x)
-{
+    const nh_classification *c = x->classification;
     size_t written = 0;
-    for (size_t k = 0; k < x->parts; k++) {
-        const nh_classified_part *p = &x->part[k];
-        const nh_plane_curve *s = p->surface == SIZE_MAX ? NULL : &x->space->surface[p->surface];
-        if (!s || !s->first) continue;
-        printf("%s%s from degree %zu (%zu, %s)", written++ ? "; " : "", nh_classified_surface_words(x->family, &s->polynomial),
-               s->first, s->number[s->first].bound, p->complete ? "proved" : "counted");
+    for (size_t k = 0; k < x->places; k++) {
+        const nh_classified_place *p = &x->place[k];
+        nh_text where;
+        nh_text_init(&where);
+        for (size_t v = x->parameters; v-- > 0 && !p->dimension;)
+            nh_text_addf(&where, "%s%s%s", where.length ? ", " : "(", p->value[v], v ? "" : ")");
+        if (p->dimension) nh_text_addf(&where, p->on ? "(%s)" : "%s", p->where);
+        nh_text_addf(&where, " from degree %zu", p->first);
+        nh_text_addf(items, "%s;", nh_text_string(&where));
+        printf("%s%s (%zu, %s)", k ? "; " : "", nh_text_string(&where), p->number[p->first].bound,
+               p->finding.complete >= p->first ? "proved" : "counted");
+        nh_text_clear(&where);
     }
-    for (size_t k = 0; k < x->curves; k++) {
-        const nh_classified_plane *within = x->part[x->curve[k].part].within;
-        const nh_plane_curve *c = &within->plane->curve[x->curve[k].index];
-        printf("%s(%s) from degree %zu (%zu, %s)", written++ ? "; " : "", x->curve[k].where, c->first,
-               c->number[c->first].bound, within->curve[x->curve[k].index].complete ? "proved" : "counted");
-    }
-    for (size_t k = 0; k < x->points; k++) {
-        const nh_classified_space_point *q = &x->point[k];
-        printf("%s(%s, %s, %s) from degree %zu (%zu, %s)", written++ ? "; " : "", q->value[2], q->value[1], q->value[0],
-               q->at->first, q->at->number[q->at->first].bound, q->at->at->complete >= q->at->first ? "proved" : "counted");
-    }
-    printf("%s | ", written ? "" : "none");
-    written = 0;
-    for (size_t k = 0; k < x->space->surfaces; k++)
-        if (x->space->surface[k].degenerate)
-            printf("%s%s", written++ ? "; " : "", nh_classified_surface_words(x->family, &x->space->surface[k].polynomial));
+    printf("%s | ", x->places ? "" : "none");
+    for (size_t k = 0; k < c->specials; k++)
+        if (c->special[k].degenerate) printf("%s%s", written++ ? "; " : "", nh_classified_equation(x, &c->special[k].polynomial));
 }
 
-static bool space_row(size_t index)
+static bool several_row(size_t index, nh_text *table)
 {
     char path[200];
     nh_error error = {0};
-    snprintf(path, sizeof path, "tests/data/classify/%s.yaml", SPACES[index].file);
-    nh_classify_request q = {.system_path = path, .over = SPACES[index].over[0], .second = SPACES[index].over[1],
-                             .third = SPACES[index].over[2], .shape = SPACES[index].shape};
+    const char *const *over = SEVERAL[index].over;
+    nh_setting setting = {.name = "A", .value = 1, .top = 1, .bottom = 1};
+    snprintf(path, sizeof path, "tests/data/classify/%s.yaml", SEVERAL[index].file);
+    nh_classify_request q = {.system_path = path, .settings = !strcmp(SEVERAL[index].file, "henon_heiles") && !over[2],
+                             .setting = &setting, .over = {over[0], over[1], over[2]}, .shape = SEVERAL[index].shape};
     nh_options_default(&q.options);
-    q.options.degree = SPACES[index].degree;
-    q.options.planes = SPACES[index].planes;
+    q.options.degree = SEVERAL[index].degree;
+    q.options.planes = SEVERAL[index].planes;
     double begin = nh_clock();
-    nh_classified_space *x = nh_classify_space_system(&q, &error);
+    nh_classified *x = nh_classify_system(&q, &error);
     if (!x) {
-        printf("| %s | %s |\n", SPACES[index].file, error.what);
+        printf("| %s | %s |\n", SEVERAL[index].file, error.what);
         return false;
     }
-    const nh_space *o = x->space;
-    printf("| %s%s | %s, %s, %s | %zu | ", x->family->title, x->family->shape ? ", coefficients free of cyclic coordinates" : "",
-           x->over[2], x->over[1], x->over[0], o->rows);
-    for (size_t d = 0; d < o->rows; d++)
-        printf("%s%s%zu", d ? ", " : "", o->row[d].number.bound == o->row[d].known ? "" : "<= ", o->row[d].number.bound);
+    const nh_classification *c = x->classification;
+    nh_text items;
+    nh_text_init(&items);
+    printf("| %s%s | ", x->title, x->shape ? ", coefficients free of cyclic coordinates" : "");
+    for (size_t v = x->parameters; v-- > 0;) printf("%s%s", x->over[v], v ? ", " : "");
+    printf(" | %zu | ", c->rows);
+    for (size_t d = 0; d < c->rows; d++)
+        printf("%s%s%zu", d ? ", " : "", c->row[d].number.bound == c->row[d].known ? "" : "<= ", c->row[d].number.bound);
     printf(" | ");
-    put_space(x);
-    printf(" | %.0e | %.1f |\n", o->rows ? o->row[o->rows - 1].height : 0, nh_clock() - begin);
+    put_places(x, &items);
+    printf(" | %.0e | %.1f |\n", c->rows ? c->row[c->rows - 1].height : 0, nh_clock() - begin);
     fflush(stdout);
-    bool good = o->rows == (size_t)SPACES[index].degree;
-    nh_classified_space_free(x);
+    bool good = over[2] ? c->rows == (size_t)SEVERAL[index].degree
+                        : compare(SEVERAL[index].file, x->places, nh_text_string(&items), table);
+    nh_text_clear(&items);
+    nh_classified_free(x);
     return good;
 }
 
@@ -392,14 +330,14 @@ static size_t random_values(uint64_t *random, bool planted, bool *found)
     nh_model *o = s ? nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error) : NULL;
     nh_text_clear(&text);
     if (!o) return SIZE_MAX;
-    nh_classify_question q = {.degree = 4, .work = 1e10, .products = 5e10, .unknowns = 6000, .known = 1, .current = &o->E};
+    nh_classify_question q = {.parameters = 1, .degree = 4, .work = 1e10, .products = 5e10, .unknowns = 6000, .known = 1, .current = &o->E};
     nh_classification *c = nh_classify(o, &q);
     size_t values = c->rows < 4 ? SIZE_MAX : 0;
-    for (size_t k = 0; k < c->values; k++) {
-        const nh_special_factor *f = &c->value[k].polynomial;
-        if (!c->value[k].first) continue;
+    for (size_t k = 0; k < c->specials; k++) {
+        const nh_special_factor *f = &c->special[k].polynomial;
+        if (!c->special[k].first) continue;
         values++;
-        *found |= f->degree == 1 && f->coefficient[1] * top + f->coefficient[0] * bottom == 0;
+        *found |= f->degree[0] == 1 && f->coefficient[1] * top + f->coefficient[0] * bottom == 0;
     }
     nh_classification_free(c);
     nh_model_free(o);
@@ -416,10 +354,8 @@ int main(int argc, char **argv)
         if (!only || !strcmp(only, FAMILIES[i].file)) row(i);
     nh_text table;
     nh_text_init(&table);
-    for (size_t i = 0; i < sizeof PLANES / sizeof *PLANES; i++)
-        if (!only || !strcmp(only, PLANES[i].file)) wrong += !plane_row(i, &table);
-    for (size_t i = 0; i < sizeof SPACES / sizeof *SPACES; i++)
-        if (!only || !strcmp(only, SPACES[i].file)) wrong += !space_row(i);
+    for (size_t i = 0; i < sizeof SEVERAL / sizeof *SEVERAL; i++)
+        if (!only || !strcmp(only, SEVERAL[i].file)) wrong += !several_row(i, &table);
     if (nh_text_string(&table)[0])
         printf("\nAgainst the lists of all homogeneous potentials of degree three, and of all real ones of degree four, with a second integral up to degree four [NakagawaYoshida2001; AMNS2018], which hold those of [Hietarinta1987]; values of both "
                "parameters in the order of the families above.\n\n| potential | in the family | found |\n|---|---|---|\n%s", nh_text_string(&table));

@@ -55,7 +55,7 @@ static nh_sparse_pencil hidden(nh_prime f, const nh_residue *value, size_t power
 static nh_residue residue_at(nh_prime f, const nh_residue_polynomial *p, nh_residue x)
 {
     nh_residue y = 0;
-    for (size_t j = p->degree + 1; j-- > 0;) y = nh_residue_add(f, nh_residue_mul(f, y, x), p->coefficient[j]);
+    for (size_t j = p->degree[0] + 1; j-- > 0;) y = nh_residue_add(f, nh_residue_mul(f, y, x), p->coefficient[j]);
     return y;
 }
 
@@ -73,7 +73,7 @@ Test(classify, chi_vanishes_where_a_hidden_pencil_loses_rank)
             double products = 1e12;
             size_t nullity;
             cr_assert(nh_staircase(&p, f, &products, &chi, &nullity));
-            cr_assert_eq(chi.degree, blocks * power);
+            cr_assert_eq(chi.degree[0], blocks * power);
             size_t generic = nh_staircase_rank(&p, f, 12345);
             cr_expect_eq(nullity, across - generic);
             for (size_t i = 0; i < blocks; i++) {
@@ -123,7 +123,7 @@ Test(classify, polynomials_are_lifted_and_factored)
     nh_residue_polynomial residue[4];
     for (size_t i = 0; i < 4; i++) {
         prime[i] = nh_prime_at(i);
-        residue[i] = (nh_residue_polynomial){4, nh_alloc_array(5, sizeof(nh_residue))};
+        residue[i] = (nh_residue_polynomial){.degree = {4}, .coefficient = nh_alloc_array(5, sizeof(nh_residue))};
         for (size_t j = 0; j < 5; j++) residue[i].coefficient[j] = nh_residue_mul(prime[i], nh_residue_of(prime[i], whole[j]), nh_residue_inverse(prime[i], 3));
     }
     nh_special_factors f = nh_special_lift(4, prime, residue);
@@ -131,9 +131,9 @@ Test(classify, polynomials_are_lifted_and_factored)
     cr_assert_eq(f.factors, 3);
     cr_expect_eq(f.factor[0].coefficient[0], 7);
     cr_expect(f.factor[1].coefficient[1] == 3 && f.factor[1].coefficient[0] == -1);
-    cr_expect(f.factor[2].degree == 2 && f.factor[2].coefficient[0] == -3 && f.factor[2].coefficient[2] == 1);
+    cr_expect(f.factor[2].degree[0] == 2 && f.factor[2].coefficient[0] == -3 && f.factor[2].coefficient[2] == 1);
     double root[2];
-    cr_assert_eq(nh_special_reals(&f.factor[2], root), 2);
+    cr_assert_eq(nh_special_reals(&f.factor[2], 0, (double[3]){0}, root), 2);
     cr_expect_float_eq(root[1], sqrt(3), 1e-12);
     nh_special_factors_clear(&f);
     residue[3].coefficient[2] ^= 1; /* the last prime does not agree */
@@ -160,7 +160,7 @@ static nh_classification *classify(nh_system *s, size_t degree, bool shape)
     nh_error error = {0};
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
     must(o != NULL, &error, "the model");
-    nh_classify_question q = {.shape = shape, .degree = degree, .work = 1e10, .products = 5e10, .unknowns = 6000, .known = 1, .current = &o->E};
+    nh_classify_question q = {.parameters = 1, .shape = shape, .degree = degree, .work = 1e10, .products = 5e10, .unknowns = 6000, .known = 1, .current = &o->E};
     nh_classification *c = nh_classify(o, &q);
     nh_model_free(o);
     return c;
@@ -171,14 +171,14 @@ static void describe(const nh_classification *c, char *out, size_t size)
 {
     size_t at = 0;
     out[0] = 0;
-    for (size_t k = 0; k < c->values && at < size; k++) {
-        const nh_classify_value *v = &c->value[k];
+    for (size_t k = 0; k < c->specials && at < size; k++) {
+        const nh_classify_special *v = &c->special[k];
         if (!v->first && !v->degenerate) continue;
         at += (size_t)snprintf(out + at, size - at, "%s%s", at ? " " : "", v->degenerate ? "C" : "");
-        if (v->polynomial.degree == 1 && v->polynomial.coefficient[1] == 1) at += (size_t)snprintf(out + at, size - at, "%lld", (long long)-v->polynomial.coefficient[0]);
-        else if (v->polynomial.degree == 1) at += (size_t)snprintf(out + at, size - at, "%lld/%lld", (long long)-v->polynomial.coefficient[0], (long long)v->polynomial.coefficient[1]);
+        if (v->polynomial.degree[0] == 1 && v->polynomial.coefficient[1] == 1) at += (size_t)snprintf(out + at, size - at, "%lld", (long long)-v->polynomial.coefficient[0]);
+        else if (v->polynomial.degree[0] == 1) at += (size_t)snprintf(out + at, size - at, "%lld/%lld", (long long)-v->polynomial.coefficient[0], (long long)v->polynomial.coefficient[1]);
         else
-            for (size_t j = v->polynomial.degree + 1; j-- > 0;) at += (size_t)snprintf(out + at, size - at, "%+lld%s", (long long)v->polynomial.coefficient[j], j ? "," : "");
+            for (size_t j = v->polynomial.degree[0] + 1; j-- > 0;) at += (size_t)snprintf(out + at, size - at, "%+lld%s", (long long)v->polynomial.coefficient[j], j ? "," : "");
         if (v->first) at += (size_t)snprintf(out + at, size - at, "@%zu", v->first);
     }
 }
@@ -286,7 +286,7 @@ static size_t theorems(const char *file, size_t settings, const nh_setting *sett
     nh_system *s = family_of(path, NULL, settings, setting);
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
     must(o != NULL, &error, "the model");
-    nh_classify_question q = {.degree = degree, .work = 1e10, .products = 5e10, .unknowns = 6000, .theorem = primes, .known = 1, .current = &o->E};
+    nh_classify_question q = {.parameters = 1, .degree = degree, .work = 1e10, .products = 5e10, .unknowns = 6000, .theorem = primes, .known = 1, .current = &o->E};
     nh_classification *c = nh_classify(o, &q);
     size_t count = 0;
     for (size_t d = 0; d < c->rows; d++) {
@@ -326,29 +326,29 @@ static void expect_bound(const char *potential, size_t degree, size_t order)
     must(o != NULL, &error, "the model");
     nh_count_question q = {.generic = true, .degree = degree, .work = 1e10};
     nh_parametric family;
-    nh_parametric_open(&family, o, (size_t[3]){0, SIZE_MAX, SIZE_MAX}, false, NULL, &q);
+    nh_parametric_open(&family, o, 1, (size_t[1]){0}, false, NULL, &q);
     nh_parity parity = degree % 2 ? NH_ODD_DEGREES : NH_EVEN_DEGREES;
     for (size_t i = 0; i < primes; i++) {
         bool regular;
         double products = 1e12;
         nh_sparse_pencil pencil;
-        nh_parametric_variable variable;
+        nh_parametric_variable variable[2];
         size_t nullity;
         prime[i] = nh_prime_at(i);
         cr_assert(nh_parametric_choose(&family, prime[i], 5));
         for (size_t k = 0; k < 2; k++) family.counter.equations->at[k] = (nh_residue)q0[k];
         nh_parametric_series *x = nh_parametric_series_create(&family, order, &regular);
-        cr_assert(x && nh_parametric_pencil(&family, x, degree, parity, 6000, &pencil, &variable));
+        cr_assert(x && nh_parametric_pencil(&family, x, degree, parity, 6000, &pencil, variable));
         cr_assert(nh_staircase(&pencil, prime[i], &products, &chi[i], &nullity));
-        nh_parametric_back(&variable, prime[i], &chi[i]);
+        nh_parametric_back(&variable[0], 0, prime[i], &chi[i]);
         if (!i) cr_assert(nh_special_bound_find(&family, degree, parity, order, q0, pencil.columns - nullity, &bound));
         nh_free(pencil.entry);
         nh_parametric_series_free(x);
     }
     nh_special_factors f = nh_special_lift(primes, prime, chi);
-    cr_assert(f.lifted && f.norm >= 3, "%s: degree %zu, %g", potential, chi[0].degree, f.norm);
-    cr_expect_leq(log2(f.norm), bound.bits + (double)chi[0].degree, "%s", potential);
-    cr_expect_leq((double)chi[0].degree, bound.degree, "%s", potential);
+    cr_assert(f.lifted && f.norm >= 3, "%s: degree %zu, %g", potential, chi[0].degree[0], f.norm);
+    cr_expect_leq(log2(f.norm), bound.bits + (double)chi[0].degree[0], "%s", potential);
+    cr_expect_leq((double)chi[0].degree[0], bound.degree, "%s", potential);
     nh_special_factors_clear(&f);
     for (size_t i = 0; i < primes; i++) nh_free(chi[i].coefficient);
     nh_parametric_close(&family);
@@ -473,7 +473,7 @@ Test(classify, values_follow_the_parameter)
     nh_system *s = family_of(NULL, "name: a\nparameters: {mu: 0.4}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^4 - x^2*y^2/mu - y^4\n", 0, NULL);
     nh_error error = {0};
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
-    nh_classify_question q = {.degree = 2, .work = 1e10, .products = 5e10, .unknowns = 6000, .known = 1, .current = &o->E};
+    nh_classify_question q = {.parameters = 1, .degree = 2, .work = 1e10, .products = 5e10, .unknowns = 6000, .known = 1, .current = &o->E};
     nh_classification *c = nh_classify(o, &q);
     char found[200];
     describe(c, found, sizeof found);
@@ -525,14 +525,14 @@ Test(classify, other_parameters_are_exact, PLAIN_ONLY)
 {
     nh_setting settings[] = {at("A", 1, 3), at("B", 16, 3)};
     nh_error error = {0};
-    nh_classify_request q = {.system_path = "tests/data/classify/henon_heiles.yaml", .settings = 2, .setting = settings, .over = "eps"};
+    nh_classify_request q = {.system_path = "tests/data/classify/henon_heiles.yaml", .settings = 2, .setting = settings, .over = {"eps"}};
     nh_options_default(&q.options);
     nh_classified *x = nh_classify_system(&q, &error);
     must(x != NULL, &error, "classification");
     char found[200];
     describe(x->classification, found, sizeof found);
     cr_expect_str_eq(found, "2@2 16/3@4");
-    cr_expect_eq(x->value[1].complete, 4);
+    cr_expect_eq(x->part[1].finding.complete, 4);
     nh_classified_free(x);
     nh_setting one = at("B", 1, 1);
     q.settings = 1, q.setting = &one;

@@ -22,12 +22,12 @@ static void describe(const nh_classified *x, nh_text *out)
         return;
     }
     nh_text_addf(out, "%zu", c->rows ? c->row[0].number.bound : 0);
-    for (size_t k = 0; k < c->values; k++) {
-        const nh_classify_value *v = &c->value[k];
+    for (size_t k = 0; k < c->specials; k++) {
+        const nh_classify_special *v = &c->special[k];
         if (v->open) nh_text_addf(out, " | open %s", nh_classified_words(x, &v->polynomial));
         if (!v->first || v->degenerate) continue;
         nh_text_addf(out, " | %s: %zu%s", nh_classified_words(x, &v->polynomial), v->number[v->first].bound,
-                     x->value[k].complete >= v->first ? " proved" : "");
+                     x->part[k].finding.complete >= v->first ? " proved" : "");
     }
 }
 
@@ -35,7 +35,7 @@ static void expect(const char *path, const char *over, nh_linear_question of, co
 {
     nh_error error = {0};
     nh_text text;
-    nh_classify_request q = {.system_path = path, .over = over, .of = of};
+    nh_classify_request q = {.system_path = path, .over = {over}, .of = of};
     nh_options_default(&q.options);
     nh_classified *x = nh_classify_system(&q, &error);
     must(x != NULL, &error, path);
@@ -143,14 +143,14 @@ static size_t planted(uint64_t *random, bool with, nh_linear_question question, 
     nh_options_default(&options);
     nh_linear_system *l = nh_linear_system_create(o, question, &options);
     cr_assert_null(l->obstacle, "%s", l->obstacle);
-    nh_classify_question q = {.linear = &l->family, .work = 1e10, .products = 5e10, .unknowns = 6000};
+    nh_classify_question q = {.parameters = 1, .linear = &l->family, .work = 1e10, .products = 5e10, .unknowns = 6000};
     nh_classification *c = nh_classify(o, &q);
     size_t values = 0;
-    for (size_t i = 0; i < c->values; i++) {
-        const nh_special_factor *f = &c->value[i].polynomial;
-        if (!c->value[i].first) continue;
+    for (size_t i = 0; i < c->specials; i++) {
+        const nh_special_factor *f = &c->special[i].polynomial;
+        if (!c->special[i].first) continue;
         values++;
-        *found |= f->degree == 1 && f->coefficient[1] * top + f->coefficient[0] * bottom == 0;
+        *found |= f->degree[0] == 1 && f->coefficient[1] * top + f->coefficient[0] * bottom == 0;
     }
     cr_expect_gt(c->rows, 0, "%s", text);
     nh_classification_free(c);

@@ -273,6 +273,22 @@ Test(library, a_parameter_is_classified)
     close_one(&o);
 }
 
+/* Of two parameters: on a curve of the plane. */
+Test(library, two_parameters_are_classified)
+{
+    static const char two[] = "name: two\nparameters: {k: 3, h: 2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (h*x^2 + k*y^2)/2\n";
+    opened o = open_one((nh_question){.system_text = two, .options = "degree=1"});
+    nh_classified *c = nh_classify_over(o.problem, "k, h", false, &o.error);
+    cr_assert_not_null(c, "%s", o.error.what);
+    char *text = nh_classified_document(c, NH_FORMAT_TEXT, &o.error);
+    cr_expect(strstr(text, "h - k = 0"), "%s", text);
+    nh_string_free(text);
+    nh_classified_free(c);
+    cr_expect_null(nh_classify_over(o.problem, "k, h, k, h", false, &o.error));
+    cr_expect_not_null(strstr(o.error.what, "more than three"));
+    close_one(&o);
+}
+
 Test(library, methods_are_compared)
 {
     opened o = open_one((nh_question){.system_text = oscillator, .initial = "x=1", .until = 3});

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "commands/classify.h"
-#include "classify/plane.h"
 #include "names.h"
 #include "program.h"
 #include "sweep.h"
@@ -15,14 +14,14 @@
 /* ---- common zeros ---- */
 
 /* coefficient[j][i] of lambda^i mu^j, up to degree two in each. */
-static nh_residue_surface surface(nh_prime f, int64_t c[3][3])
+static nh_residue_polynomial surface(nh_prime f, int64_t c[3][3])
 {
-    nh_residue_surface s = {.degree = {2, 2}, .coefficient = nh_alloc_array(9, sizeof(nh_residue))};
+    nh_residue_polynomial s = {.degree = {2, 2}, .coefficient = nh_alloc_array(9, sizeof(nh_residue))};
     for (size_t k = 0; k < 9; k++) s.coefficient[k] = nh_residue_of(f, c[k / 3][k % 3]);
     return s;
 }
 
-static nh_residue at(nh_prime f, const nh_residue_surface *s, nh_residue lambda, nh_residue mu)
+static nh_residue at(nh_prime f, const nh_residue_polynomial *s, nh_residue lambda, nh_residue mu)
 {
     nh_residue sum = 0;
     for (size_t j = s->degree[1] + 1; j-- > 0;) {
@@ -42,21 +41,21 @@ Test(plane, common_zeros_are_a_curve_and_a_point)
         {{-8, 1, 0}, {1, 0, 0}},                 /* lambda + mu - 8 */
         {{-15, 0, 0}, {0, 1, 0}},                /* lambda mu - 15 */
         {{-16, 0, -1}, {0, 0, 0}, {1, 0, 0}}};   /* mu^2 - lambda^2 - 16 */
-    nh_residue_surface p[3], Q[1] = {surface(f, one)}, c = surface(f, curve);
+    nh_residue_polynomial p[3], Q[1] = {surface(f, one)}, c = surface(f, curve);
     for (size_t k = 0; k < 3; k++) {
-        nh_residue_surface part = surface(f, parts[k]);
-        p[k] = nh_residue_surface_times(f, &c, &part);
+        nh_residue_polynomial part = surface(f, parts[k]);
+        p[k] = nh_residue_polynomial_times(f, &c, &part);
         nh_free(part.coefficient);
     }
-    nh_common_curves found;
-    cr_assert(nh_common_curves_find(f, 3, p, 1, Q, &found));
-    cr_assert(found.special.degree[0] == 1 && found.special.degree[1] == 2);
-    cr_expect_eq(at(f, &found.special, 49, 7), 0);
-    cr_expect_neq(at(f, &found.special, 49, 8), 0);
-    cr_expect(found.degenerate.degree[0] == 0 && found.degenerate.degree[1] == 0);
-    cr_assert_eq(found.across.degree, 1);
-    cr_expect_eq(found.across.coefficient[0], nh_residue_of(f, -5));
-    nh_common_curves_clear(&found);
+    nh_common_zeros found;
+    cr_assert(nh_common_zeros_find(f, 3, p, 1, Q, &found));
+    cr_assert(found.part[NH_ZEROS_SPECIAL].degree[0] == 1 && found.part[NH_ZEROS_SPECIAL].degree[1] == 2);
+    cr_expect_eq(at(f, &found.part[NH_ZEROS_SPECIAL], 49, 7), 0);
+    cr_expect_neq(at(f, &found.part[NH_ZEROS_SPECIAL], 49, 8), 0);
+    cr_expect(found.part[NH_ZEROS_DEGENERATE].degree[0] == 0 && found.part[NH_ZEROS_DEGENERATE].degree[1] == 0);
+    cr_assert_eq(found.part[NH_ZEROS_ACROSS].degree[1], 1);
+    cr_expect_eq(found.part[NH_ZEROS_ACROSS].coefficient[0], nh_residue_of(f, -5));
+    nh_common_zeros_clear(&found);
     for (size_t k = 0; k < 3; k++) nh_free(p[k].coefficient);
     nh_free(Q[0].coefficient);
     nh_free(c.coefficient);
@@ -67,35 +66,39 @@ Test(plane, curves_are_lifted_and_factored)
 {
     static const int64_t whole[4][4] = {{0, 2, 0, 2}, {-3, 0, -3, 0}, {0, -10, 0, 0}, {15, 0, 0, 0}};
     nh_prime prime[4];
-    nh_residue_surface residue[4];
+    nh_residue_polynomial residue[4];
     for (size_t i = 0; i < 4; i++) {
         prime[i] = nh_prime_at(i);
-        residue[i] = (nh_residue_surface){.degree = {3, 3}, .coefficient = nh_alloc_array(16, sizeof(nh_residue))};
+        residue[i] = (nh_residue_polynomial){.degree = {3, 3}, .coefficient = nh_alloc_array(16, sizeof(nh_residue))};
         for (size_t k = 0; k < 16; k++)
             residue[i].coefficient[k] = nh_residue_mul(prime[i], nh_residue_of(prime[i], whole[k / 4][k % 4]),
                                                        nh_residue_inverse(prime[i], 2));
     }
-    nh_special_surfaces c = nh_special_surfaces_lift(4, prime, residue);
+    nh_special_factors c = nh_special_lift(4, prime, residue);
     cr_assert(c.lifted);
-    cr_assert_eq(c.surfaces, 2);
-    cr_assert(c.surface[0].degree[0] == 1 && c.surface[0].degree[1] == 1);
-    cr_expect(c.surface[0].coefficient[1] == 2 && c.surface[0].coefficient[2] == -3);
-    nh_special_factor half = {.degree = 1, .coefficient = (int64_t[]){-3, 2}}, other = {.degree = 1,
-        .coefficient = (int64_t[]){-3, 1}}, root = {.degree = 2, .coefficient = (int64_t[]){-4, 0, 1}};
-    cr_expect(nh_special_curve_contains(&c.surface[0], &half, 1, 1));
-    cr_expect_not(nh_special_curve_contains(&c.surface[0], &other, 1, 1));
-    cr_expect(nh_special_curve_contains(&c.surface[1], &root, 1, 1), "4 - 5 + 1");
+    cr_assert_eq(c.factors, 2);
+    cr_assert(c.factor[0].degree[0] == 1 && c.factor[0].degree[1] == 1);
+    cr_expect(c.factor[0].coefficient[1] == 2 && c.factor[0].coefficient[2] == -3);
+    nh_special_factor half = {.degree = {1}, .coefficient = (int64_t[]){-3, 2}}, other = {.degree = {1},
+        .coefficient = (int64_t[]){-3, 1}}, root = {.degree = {2}, .coefficient = (int64_t[]){-4, 0, 1}};
+    nh_special_factor one = {.degree = {0, 1}, .coefficient = (int64_t[]){-1, 1}}; /* mu = 1 */
+    nh_special_place on = {.count = 2, .gives = {1}, .equation = {one, half}};
+    cr_expect(nh_special_contains(&c.factor[0], &on));
+    on.equation[1] = other;
+    cr_expect_not(nh_special_contains(&c.factor[0], &on));
+    on.equation[1] = root;
+    cr_expect(nh_special_contains(&c.factor[1], &on), "4 - 5 + 1");
     for (uint64_t seed = 1; seed < 20; seed++) {
-        nh_residue lambda, mu;
-        if (!nh_special_curve_point(&c.surface[1], prime[0], seed, &lambda, &mu)) continue;
-        nh_residue five = nh_residue_mul(prime[0], 5, nh_residue_mul(prime[0], mu, mu));
-        cr_expect_eq(nh_residue_add(prime[0], nh_residue_mul(prime[0], lambda, lambda), 1), five);
+        nh_residue point[NH_MOST_PARAMETERS];
+        if (!nh_special_point(&c.factor[1], prime[0], seed, point)) continue;
+        nh_residue five = nh_residue_mul(prime[0], 5, nh_residue_mul(prime[0], point[1], point[1]));
+        cr_expect_eq(nh_residue_add(prime[0], nh_residue_mul(prime[0], point[0], point[0]), 1), five);
     }
-    nh_special_surfaces_clear(&c);
+    nh_special_factors_clear(&c);
     residue[3].coefficient[5] ^= 1; /* the last prime does not agree */
-    c = nh_special_surfaces_lift(4, prime, residue);
+    c = nh_special_lift(4, prime, residue);
     cr_expect_not(c.lifted);
-    nh_special_surfaces_clear(&c);
+    nh_special_factors_clear(&c);
     for (size_t i = 0; i < 4; i++) nh_free(residue[i].coefficient);
 }
 
@@ -118,9 +121,9 @@ Test(plane, determinants_vanish_where_rank_is_lost)
             entry[z] = nh_residue_add(f, entry[z], nh_residue_mul(f, both, nh_residue_of(f, diagonal[power][a])));
         }
     nh_staircase_matrices m = {.degree = 1, .second = 1, .rows = rows, .columns = columns, .entry = entry};
-    nh_residue_surface d;
-    cr_assert_eq(nh_compression_rank(&m, f), core);
-    cr_assert(nh_compression_determinant(&m, f, core, 5, &d));
+    nh_residue_polynomial d;
+    cr_assert_eq(nh_staircase_generic_rank(&m, f), core);
+    cr_assert(nh_staircase_determinant(&m, f, core, 5, &d));
     cr_expect_eq(at(f, &d, 11, 11), 0);
     cr_expect_eq(at(f, &d, 3, 2), 0);
     for (nh_residue k = 0; k < 20; k++) cr_expect_neq(at(f, &d, 3 + k, 30 + 2 * k), 0);
@@ -129,38 +132,38 @@ Test(plane, determinants_vanish_where_rank_is_lost)
 
 /* ---- families ---- */
 
-static nh_plane *plane_of(nh_system *s, size_t degree)
+static nh_classification *plane_of(nh_system *s, size_t degree)
 {
     nh_error error = {0};
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
     must(o != NULL, &error, "the model");
-    nh_classify_question q = {.parameter = 1, .two = true, .second = 0, .degree = degree, .work = 1e10, .products = 5e10,
+    nh_classify_question q = {.parameters = 2, .parameter = {1, 0}, .degree = degree, .work = 1e10, .products = 5e10,
                               .unknowns = 6000, .plane = 100, .known = 1, .current = &o->E};
-    nh_plane *p = nh_plane_classify(o, &q);
+    nh_classification *p = nh_classify(o, &q);
     nh_model_free(o);
     return p;
 }
 
 /* "(1,0,-2)@2 1/3|1@2": curves by their coefficients and points lambda|mu, with the degrees from which on there are
  * more. */
-static void describe(const nh_plane *p, char *out, size_t size)
+static void describe(const nh_classification *p, char *out, size_t size)
 {
     size_t n = 0;
     out[0] = 0;
-    for (size_t k = 0; k < p->curves && n < size; k++) {
-        const nh_special_curve *c = &p->curve[k].polynomial;
-        if (!p->curve[k].first && !p->curve[k].degenerate) continue;
-        n += (size_t)snprintf(out + n, size - n, "%s%s", n ? " " : "", p->curve[k].degenerate ? "C" : "");
+    for (size_t k = 0; k < p->specials && n < size; k++) {
+        const nh_special_factor *c = &p->special[k].polynomial;
+        if (!p->special[k].first && !p->special[k].degenerate) continue;
+        n += (size_t)snprintf(out + n, size - n, "%s%s", n ? " " : "", p->special[k].degenerate ? "C" : "");
         for (size_t i = (c->degree[0] + 1) * (c->degree[1] + 1); i-- > 0 && n < size;)
             n += (size_t)snprintf(out + n, size - n, "%lld%s", (long long)c->coefficient[i], i ? "," : "");
-        if (p->curve[k].first) n += (size_t)snprintf(out + n, size - n, "@%zu", p->curve[k].first);
+        if (p->special[k].first) n += (size_t)snprintf(out + n, size - n, "@%zu", p->special[k].first);
     }
     for (size_t k = 0; k < p->points && n < size; k++) {
-        const nh_plane_line *line = &p->line[p->point[k].line];
-        const nh_classify_value *v = &line->line->value[p->point[k].value];
+        const nh_classify_wall *line = &p->wall[p->point[k].wall];
+        const nh_classify_special *v = &line->within->special[p->point[k].value];
         int64_t top[2], bottom[2];
-        cr_assert(nh_classified_rational(&v->polynomial, &top[0], &bottom[0]));
-        cr_assert(nh_classified_rational(&line->across, &top[1], &bottom[1]));
+        cr_assert(nh_special_rational(&v->polynomial, &top[0], &bottom[0]));
+        cr_assert(nh_special_rational(&line->polynomial, &top[1], &bottom[1]));
         n += (size_t)snprintf(out + n, size - n, "%s%lld/%lld|%lld/%lld@%zu", n ? " " : "", (long long)top[0],
                               (long long)bottom[0], (long long)top[1], (long long)bottom[1], v->first);
     }
@@ -169,7 +172,7 @@ static void describe(const nh_plane *p, char *out, size_t size)
 static void expect_plane(nh_system *s, size_t degree, const char *expected, const char *name)
 {
     char found[2000];
-    nh_plane *p = plane_of(s, degree);
+    nh_classification *p = plane_of(s, degree);
     cr_assert_null(p->obstacle, "%s: %s", name, p->obstacle);
     cr_assert_eq(p->rows, degree, "%s: ended by %s", name, p->end);
     for (size_t d = 0; d < degree; d++) {
@@ -179,7 +182,7 @@ static void expect_plane(nh_system *s, size_t degree, const char *expected, cons
     }
     describe(p, found, sizeof found);
     cr_expect_str_eq(found, expected, "%s", name);
-    nh_plane_free(p);
+    nh_classification_free(p);
     nh_system_free(s);
 }
 
@@ -296,16 +299,16 @@ Test(plane, irrational_points_stay_open)
     static const char text[] = "name: a\nparameters: {mu: 0.4, la: 0.3}\ncoordinates: [x, y]\n"
         "lagrangian: (x'^2 + y'^2)/2 - x^4 - y^3 - (la - 1)*x*y^2 - (mu^2 - 2)*(x^2*y + 3*x*y^3)\n";
     nh_system *s = parsed(text);
-    nh_plane *p = plane_of(s, 2);
+    nh_classification *p = plane_of(s, 2);
     cr_assert_eq(p->rows, 2);
     bool found = false;
-    for (size_t k = 0; k < p->lines; k++) {
-        const nh_special_factor *f = &p->line[k].across;
-        found |= f->degree == 2 && f->coefficient[2] == 1 && f->coefficient[1] == 0 && f->coefficient[0] == -2
-            && !p->line[k].line;
+    for (size_t k = 0; k < p->walls; k++) {
+        const nh_special_factor *f = &p->wall[k].polynomial;
+        found |= f->degree[1] == 2 && f->coefficient[2] == 1 && f->coefficient[1] == 0 && f->coefficient[0] == -2
+            && !p->wall[k].within;
     }
     cr_expect(found);
-    nh_plane_free(p);
+    nh_classification_free(p);
     nh_system_free(s);
 }
 
@@ -315,23 +318,23 @@ Test(plane, limits_are_named)
     nh_error error = {0};
     nh_model *o = nh_model_create(s, nh_chart_create(s, NH_CHART_AUTO, 1, &error), &error);
     must(o != NULL, &error, "the model");
-    nh_classify_question q = {.parameter = 1, .two = true, .second = 0, .degree = 4, .work = 1e10, .products = 5e10, .unknowns = 6000,
+    nh_classify_question q = {.parameters = 2, .parameter = {1, 0}, .degree = 4, .work = 1e10, .products = 5e10, .unknowns = 6000,
                               .plane = 4, .known = 1, .current = &o->E};
-    nh_plane *p = nh_plane_classify(o, &q);
+    nh_classification *p = nh_classify(o, &q);
     cr_expect_str_eq(p->end, "plane");
     cr_expect_lt(p->rows, 4);
-    nh_plane_free(p);
+    nh_classification_free(p);
     q.plane = 100, q.unknowns = 30;
-    p = nh_plane_classify(o, &q);
+    p = nh_classify(o, &q);
     cr_expect_str_eq(p->end, "unknowns");
-    nh_plane_free(p);
+    nh_classification_free(p);
     nh_model_free(o);
     nh_system_free(s);
     s = parsed("name: a\nparameters: {mu: 0.4, la: 0.3}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - la*x^2*y - exp(mu*x)\n");
     p = plane_of(s, 2);
     cr_assert_not_null(p->obstacle);
     cr_expect(strstr(p->obstacle, "inside of a function"), "%s", p->obstacle);
-    nh_plane_free(p);
+    nh_classification_free(p);
     nh_system_free(s);
 }
 

@@ -7,16 +7,16 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "classify/special_surfaces.h"
+#include "classify/special_values.h"
 #include "program.h"
 #include "sweep.h"
 
 /* ---- surfaces ---- */
 
 /* (lambda (nu^2 + 3) - mu nu + 1)(2 mu + nu) at one nu, monic in lambda mu; `low`: without the first factor's lambda. */
-static nh_residue_surface section_at(nh_prime f, nh_residue nu)
+static nh_residue_polynomial section_at(nh_prime f, nh_residue nu)
 {
-    nh_residue_surface s = {.degree = {1, 2}, .coefficient = nh_alloc_array(6, sizeof(nh_residue))};
+    nh_residue_polynomial s = {.degree = {1, 2}, .coefficient = nh_alloc_array(6, sizeof(nh_residue))};
     nh_residue a = nh_residue_add(f, nh_residue_mul(f, nu, nu), 3), first[2][2] = {{1, a}, {nh_residue_negative(f, nu), 0}}, second[2] = {nu, 2};
     nh_residue scale = nh_residue_inverse(f, nh_residue_mul(f, 2, a));
     for (size_t j = 0; j < 2; j++)
@@ -30,48 +30,46 @@ Test(space, surfaces_come_from_sections)
 {
     enum { primes = 4, sections = 8 };
     nh_prime prime[primes];
-    nh_residue_surface volume[primes];
+    nh_residue_polynomial volume[primes];
     for (size_t i = 0; i < primes; i++) {
-        nh_residue nu[sections];
-        nh_residue_surface section[sections];
+        uint64_t nu[sections];
+        nh_residue_polynomial section[sections];
         prime[i] = nh_prime_at(i);
-        for (size_t k = 0; k < sections; k++) section[k] = section_at(prime[i], nu[k] = (nh_residue)(100 + 7 * k));
-        nh_residue_surface none;
-        cr_expect_not(nh_residue_surface_from(prime[i], 4, nu, section, &none)); /* of degree 3 over degree 2 */
-        cr_assert(nh_residue_surface_from(prime[i], sections, nu, section, &volume[i]));
+        for (size_t k = 0; k < sections; k++) section[k] = section_at(prime[i], (nh_residue)(nu[k] = 100 + 7 * k));
+        nh_residue_polynomial none;
+        cr_expect_not(nh_residue_polynomial_from(prime[i], 2, 4, nu, section, &none)); /* of degree 3 over degree 2 */
+        cr_assert(nh_residue_polynomial_from(prime[i], 2, sections, nu, section, &volume[i]));
         for (size_t k = 0; k < sections; k++) nh_free(section[k].coefficient);
     }
-    nh_special_surfaces s = nh_special_surfaces_lift(primes, prime, volume);
+    nh_special_factors s = nh_special_lift(primes, prime, volume);
     cr_assert(s.lifted);
-    cr_assert_eq(s.surfaces, 2);
-    const nh_special_surface *plane = &s.surface[0], *curved = &s.surface[1];
+    cr_assert_eq(s.factors, 2);
+    const nh_special_factor *plane = &s.factor[0], *curved = &s.factor[1];
     cr_assert(plane->degree[0] == 0 && plane->degree[1] == 1 && plane->degree[2] == 1);
     cr_assert(curved->degree[0] == 1 && curved->degree[1] == 1 && curved->degree[2] == 2);
     cr_expect(plane->coefficient[1] == 2 && plane->coefficient[2] == 1);
 
     nh_residue at[3];
-    cr_assert(nh_special_surface_point(plane, prime[0], 5, at));
+    cr_assert(nh_special_point(plane, prime[0], 5, at));
     cr_expect_eq(nh_residue_add(prime[0], nh_residue_mul(prime[0], 2, at[1]), at[2]), 0);
 
-    nh_residue_surface part = section_at(prime[0], 55);
-    cr_expect(nh_special_surfaces_cover(2, s.surface, prime[0], 55, &part));
-    cr_expect_not(nh_special_surfaces_cover(1, s.surface, prime[0], 55, &part));
-    cr_expect_not(nh_special_surfaces_cover(2, s.surface, prime[0], 56, &part));
+    nh_residue_polynomial part = section_at(prime[0], 55);
+    cr_expect(nh_special_cover(2, s.factor, prime[0], 2, 55, &part));
+    cr_expect_not(nh_special_cover(1, s.factor, prime[0], 2, 55, &part));
+    cr_expect_not(nh_special_cover(2, s.factor, prime[0], 2, 56, &part));
     nh_free(part.coefficient);
 
-    /* on nu = -2 mu: lambda (4 mu^2 + 3) + 2 mu^2 + 1 */
-    nh_special_curve meet;
-    cr_assert(nh_special_surface_section(curved, plane, 2, &meet));
-    cr_assert(meet.degree[0] == 1 && meet.degree[1] == 2);
-    static const int64_t expected[6] = {1, 3, 0, 0, 2, 4};
-    cr_expect_arr_eq(meet.coefficient, expected, sizeof expected);
-    nh_special_curve itself;
-    cr_assert(nh_special_surface_section(plane, plane, 2, &itself));
-    cr_expect(nh_special_curve_covers(&itself, &meet));
-    cr_expect_not(nh_special_curve_covers(&meet, &(nh_special_curve){.degree = {1, 0}, .coefficient = (int64_t[]){0, 1}}));
-    nh_free(itself.coefficient);
-    nh_free(meet.coefficient);
-    nh_special_surfaces_clear(&s);
+    /* on nu = -2 mu the curved one is lambda (4 mu^2 + 3) + 2 mu^2 + 1 = 0 */
+    nh_special_place on = {.count = 2, .gives = {2}, .equation = {*plane, {.degree = {1, 2}, .coefficient = (int64_t[]){1, 3, 0, 0, 2, 4}}}};
+    cr_expect(nh_special_contains(curved, &on) && nh_special_contains(plane, &on));
+    on.equation[1].coefficient = (int64_t[]){1, 3, 0, 0, 2, 5};
+    cr_expect(!nh_special_contains(curved, &on) && nh_special_contains(plane, &on));
+    /* and at mu = i, where 4 mu^2 + 3 = -1 and 2 mu^2 + 1 = -1, lambda = -1: an irrational point of both */
+    nh_special_place point = {.count = 3, .gives = {2, 0}, .equation = {*plane, {.degree = {1}, .coefficient = (int64_t[]){1, 1}}, {.degree = {0, 2}, .coefficient = (int64_t[]){1, 0, 1}}}};
+    cr_expect(nh_special_contains(curved, &point) && nh_special_contains(plane, &point));
+    point.equation[1].coefficient = (int64_t[]){-1, 1};
+    cr_expect_not(nh_special_contains(curved, &point));
+    nh_special_factors_clear(&s);
     for (size_t i = 0; i < primes; i++) nh_free(volume[i].coefficient);
 }
 
@@ -162,6 +160,17 @@ Test(space, what_lies_on_a_surface_is_found_once, PLAIN_ONLY)
     write_system(&p, "u: 0.41, v: 0.37, w: 0.29", "x^2 + u*y^2 + v*y^4 + w*x^2*y");
     expect_special(&p, "a.yaml --over u,v,w --degree 2 --option planes=1",
                    "w = 0 @2:3\nu=1 v=0 w=0 @1:6\nu=0 v=0 w=0 @1:4\nu=4 v=0 w=0 @2:4\nu=1/4 v=0 w=0 @2:4\n");
+    place_clear(&p);
+}
+
+/* The point b = i, c = -1, d = -i/3 lies on the surface and on the wall c = b^2, of which it has other equations. */
+Test(space, an_irrational_point_of_two_surfaces_is_told_once, PLAIN_ONLY)
+{
+    place p = place_make();
+    char line[500];
+    snprintf(line, sizeof line, "%.300s/tests/data/classify/cubic_three.yaml --over b,c,d --degree 2 --option planes=2", p.project);
+    expect_special(&p, line, "3*d*b - c^2 + c - b^2 = 0 @2:3\nd = (c^2 - c + b^2)/(3*b), c - b^2 = 0 @1:4\n"
+                             "b=b^2 + 1 = 0 (no real value) c=c = b^2 d=d = (c^2 - c + b^2)/(3*b) @2:5 open\n");
     place_clear(&p);
 }
 

@@ -3,7 +3,6 @@
 
 #include "base/progress.h"
 #include "classify/classify_internal.h"
-#include "classify/linear_pencil.h"
 
 enum { most_points = 60, steps_beyond = 1, first_beyond = 2, root_primes = 40 };
 
@@ -13,11 +12,25 @@ typedef nh_classify_place place;
 void nh_classify_open(search *s, const nh_model *model, const nh_classify_question *q)
 {
     *s = (search){
-        .q = q,
+        .model = model,
+        .q = *q,
         .count = {.generic = true, .degree = q->degree, .work = q->work, .known = q->known, .current = q->current}};
-    size_t parameter[3] = {q->parameter, q->two ? q->second : SIZE_MAX, q->three ? q->third : SIZE_MAX};
-    nh_parametric_open(&s->family, model, parameter, q->shape, q->linear, &s->count);
-    s->family.held = q->two && q->bottom > 0;
+    nh_parametric_open(&s->family, model, q->parameters, q->parameter, q->shape, q->linear, &s->count);
+    s->family.held = nh_classify_free(s) == 1;
+}
+
+void nh_classify_hold(search *s, int v, int64_t top, int64_t bottom)
+{
+    s->q.top[v] = top;
+    s->q.bottom[v] = bottom;
+    s->family.held = nh_classify_free(s) == 1;
+}
+
+int nh_classify_free(const search *s)
+{
+    int count = 0;
+    for (size_t k = 0; k < s->q.parameters; k++) count += s->q.bottom[k] == 0;
+    return count;
 }
 
 /* ---- points ---- */
@@ -27,20 +40,20 @@ nh_prime nh_classify_prime(const search *s, size_t index)
     return nh_jet_point_prime(s->family.counter.equations->point, index);
 }
 
-/* Gives mu and nu the residues of the values that the question gives them. */
-static bool hold(search *s, nh_prime f)
+/* Gives the parameters that are held the residues of their values; false: one has none. */
+static bool hold_values(search *s, nh_prime f)
 {
-    const nh_classify_question *q = s->q;
-    if (q->two && q->bottom > 0 && !nh_residue_ratio(f, q->top, q->bottom, &s->family.value)) return false;
-    return !q->three || q->third_bottom == 0 ||
-           nh_residue_ratio(f, q->third_top, q->third_bottom, &s->family.third_value);
+    bool good = true;
+    for (size_t k = 0; k < s->q.parameters && good; k++)
+        if (s->q.bottom[k]) good = nh_residue_ratio(f, s->q.top[k], s->q.bottom[k], &s->family.value[k]);
+    return good;
 }
 
 nh_parametric_series *nh_classify_series(search *s, nh_prime f, uint64_t seed, size_t order)
 {
     nh_parametric_series *x = NULL;
     bool regular = false;
-    if (!hold(s, f)) return NULL;
+    if (!hold_values(s, f)) return NULL;
     for (uint64_t attempt = 0; attempt < most_points && !regular && !s->family.obstacle && !nh_late(); attempt++)
         if (nh_parametric_choose(&s->family, f, seed + 1000 * attempt))
             x = nh_parametric_series_create(&s->family, order, &regular);
@@ -49,23 +62,16 @@ nh_parametric_series *nh_classify_series(search *s, nh_prime f, uint64_t seed, s
 
 /* ---- how many integrals at one value ---- */
 
-/* The residues of the values modulo this prime; false where a value has none. */
-static bool residue_of(search *s, const place *p, nh_prime f, nh_residue *out)
+/* Gives the parameters that vary residues modulo this prime at the place; false where it has none. */
+static bool take_residues(search *s, const place *p, nh_prime f)
 {
     uint64_t random = f.p;
-    *out = nh_residue_random(f, &random);
-    if (s->q->two && s->q->bottom == 0) s->family.value = nh_residue_random(f, &random);
-    if (s->q->three && s->q->third_bottom == 0) s->family.third_value = nh_residue_random(f, &random);
-    if (p->kind == NH_CLASSIFY_SURFACE) {
-        nh_residue at[3];
-        bool found = nh_special_surface_point(p->surface, f, f.p, at);
-        *out = at[0];
-        s->family.value = at[1];
-        s->family.third_value = at[2];
-        return found;
-    }
-    if (p->kind == NH_CLASSIFY_CURVE) return nh_special_curve_point(p->surface, f, f.p, out, &s->family.value);
-    return p->kind != NH_CLASSIFY_ROOT || nh_special_root(p->root, f, out);
+    nh_residue at[NH_MOST_PARAMETERS];
+    for (size_t k = 0; k < s->q.parameters; k++) at[k] = nh_residue_random(f, &random);
+    if (p->on && !nh_special_point(p->on, f, f.p, at)) return false;
+    for (size_t k = 0; k < s->q.parameters; k++)
+        if (!s->q.bottom[k]) s->family.value[k] = at[k];
+    return true;
 }
 
 /* N for each order. */
@@ -115,8 +121,9 @@ static bool dimension_at(search *s, nh_prime f, size_t level, size_t order, cons
     nh_parametric_series *x = nh_classify_series(s, f, 7 + level, order);
     if (!x) return false;
     nh_residue *values = nh_alloc_array(x->length, sizeof *values);
-    nh_parametric_at(x, lambda, p->kind == NH_CLASSIFY_INFINITE, values);
-    bool good = nh_linear_dimension(&s->family, x, values, level, s->count.work - s->family.counter.work, out);
+    nh_parametric_at(x, lambda, p->infinite, values);
+    bool good =
+        nh_parametric_linear_dimension(&s->family, x, values, level, s->count.work - s->family.counter.work, out);
     nh_free(values);
     nh_parametric_series_free(x);
     return good;
@@ -126,7 +133,7 @@ static bool dimension_at(search *s, nh_prime f, size_t level, size_t order, cons
 static void dimension(search *s, nh_prime f, size_t level, const place *p, nh_residue lambda, size_t least,
                       nh_classify_number *out)
 {
-    const nh_linear_family *l = s->q->linear;
+    const nh_linear_family *l = s->q.linear;
     size_t seen = l->low + l->step + 1, number;
     for (size_t order = l->low + 1, same = 0; !nh_late(); order++) {
         if (!dimension_at(s, f, level, order, p, lambda, &number)) break;
@@ -150,7 +157,9 @@ static bool prime_of(search *s, const place *p, nh_prime *f, nh_residue *lambda)
     for (size_t k = 0; k < point->kernels; k++) roots |= point->kernel[k].kind == NH_JET_ROOT;
     for (size_t i = 0; i < (roots ? 1 : 2) * (size_t)root_primes; i++) {
         *f = i < root_primes ? nh_classify_prime(s, i) : nh_prime_with_units(i - root_primes);
-        if (residue_of(s, p, *f, lambda)) return true;
+        if (!take_residues(s, p, *f)) continue;
+        *lambda = s->family.value[0];
+        return true;
     }
     return false;
 }
@@ -159,7 +168,7 @@ bool nh_classify_singular(search *s, const place *p)
 {
     nh_prime f;
     nh_residue lambda;
-    return prime_of(s, p, &f, &lambda) && hold(s, f) && nh_parametric_singular(&s->family, f, lambda, s->family.value);
+    return prime_of(s, p, &f, &lambda) && hold_values(s, f) && nh_parametric_singular(&s->family, f);
 }
 
 bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, size_t *known, nh_classify_number *out)
@@ -172,8 +181,8 @@ bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, s
     if (!prime_of(s, p, &f, &lambda)) return false;
     s->family.held = true;
     s->family.counter.work = 0;
-    if (s->q->linear) {
-        if (known) least = *known = s->q->linear->known;
+    if (s->q.linear) {
+        if (known) least = *known = s->q.linear->known;
         dimension(s, f, degree, p, lambda, least, out);
         s->family.held = held;
         return out->bounded;
@@ -192,7 +201,7 @@ bool nh_classify_count(search *s, size_t degree, const place *p, size_t least, s
         nh_residue *values = nh_alloc_array(x->length, sizeof *values);
         nh_count_row row = {0};
         nh_classify_number number;
-        nh_parametric_at(x, lambda, p->kind == NH_CLASSIFY_INFINITE, values);
+        nh_parametric_at(x, lambda, p->infinite, values);
         bool good = totals(s, x, values, degree, total, &number);
         if (good && known && nh_count_products(&s->family.counter, x->ring, x->coordinate, degree, SIZE_MAX, &row))
             least = *known = row.known;

@@ -11,15 +11,13 @@ enum { most_factors = 16, most_degree = 12, largest_series = 20000, most_paramet
 
 /* ---- what depends on the parameter, and how ---- */
 
-static nh_ex symbol_of(const nh_parametric *f) { return f->counter.equations->model->parameter[f->parameter]; }
-
 /* Does e depend on one of the parameters? */
 static bool depends(const nh_parametric *f, nh_ex e)
 {
     const nh_jet_equations *x = f->counter.equations;
-    return nh_depends(x->dag, e, symbol_of(f)) ||
-           (f->second != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->second])) ||
-           (f->third != SIZE_MAX && nh_depends(x->dag, e, x->model->parameter[f->third]));
+    bool any = false;
+    for (size_t k = 0; k < f->parameters; k++) any |= nh_depends(x->dag, e, x->model->parameter[f->parameter[k]]);
+    return any;
 }
 
 static size_t factor_of(nh_parametric *f, nh_ex base)
@@ -76,7 +74,7 @@ static bool inside_functions(const nh_parametric *f)
     return false;
 }
 
-static bool any_depends(const nh_parametric *f, size_t n, const nh_ex *e)
+bool nh_parametric_depends(const nh_parametric *f, size_t n, const nh_ex *e)
 {
     bool any = false;
     for (size_t i = 0; i < n; i++) any |= depends(f, e[i]);
@@ -120,12 +118,12 @@ static void look(nh_parametric *f)
 {
     const nh_jet_equations *x = f->counter.equations;
     size_t of_rest[most_factors] = {0};
+    bool constant = true;
+    for (size_t k = 0; k < f->parameters; k++) constant &= !in_equations(f, x->model->parameter[f->parameter[k]]);
     if (inside_functions(f)) f->obstacle = "the parameter occurs inside of a function or a root";
-    else if (!plain(f) && any_depends(f, x->m, x->rho)) f->obstacle = "the constraints depend on the parameter";
-    else if (!in_equations(f, symbol_of(f)) &&
-             (f->second == SIZE_MAX || !in_equations(f, x->model->parameter[f->second])) &&
-             (f->third == SIZE_MAX || !in_equations(f, x->model->parameter[f->third])))
-        f->obstacle = nh_parametric_constant;
+    else if (!plain(f) && nh_parametric_depends(f, x->m, x->rho))
+        f->obstacle = "the constraints depend on the parameter";
+    else if (constant) f->obstacle = nh_parametric_constant;
     if (f->obstacle) return;
     nh_parametric_denominators(f, x->n * x->n, x->M, f->of_mass);
     nh_parametric_denominators(f, x->n, x->A, f->of_rest);
@@ -136,11 +134,11 @@ static void look(nh_parametric *f)
     }
 }
 
-void nh_parametric_open(nh_parametric *f, const nh_model *model, const size_t parameter[3], bool shape,
+void nh_parametric_open(nh_parametric *f, const nh_model *model, size_t parameters, const size_t *parameter, bool shape,
                         const nh_linear_family *linear, const nh_count_question *question)
 {
-    *f = (nh_parametric){
-        .parameter = parameter[0], .second = parameter[1], .third = parameter[2], .shape = shape, .linear = linear};
+    *f = (nh_parametric){.parameters = parameters, .shape = shape, .linear = linear};
+    memcpy(f->parameter, parameter, parameters * sizeof *parameter);
     nh_counter_open(&f->counter, model, question, false);
     nh_jet_equations *x = f->counter.equations;
     f->index = nh_alloc_array(x->coordinates + 1, sizeof *f->index);
@@ -217,19 +215,16 @@ void nh_parametric_determinant(const nh_jet_ring *r, size_t n, nh_residue *M, nh
     nh_free(inverse);
 }
 
-/* sum := sum times factor */
-static void times(const nh_jet_ring *r, nh_residue *sum, const nh_residue *factor, nh_residue *work)
+void nh_parametric_times(const nh_jet_ring *r, nh_residue *sum, const nh_residue *factor, nh_residue *work)
 {
     nh_jet_mul(r, sum, factor, work);
     memcpy(sum, work, r->size * sizeof *sum);
 }
 
-static void set_parameters(nh_parametric *f, nh_residue lambda, nh_residue mu)
+void nh_parametric_set(nh_parametric *f)
 {
     const nh_jet_equations *x = f->counter.equations;
-    x->at[x->coordinates + f->parameter] = lambda;
-    if (f->second != SIZE_MAX) x->at[x->coordinates + f->second] = mu;
-    if (f->third != SIZE_MAX) x->at[x->coordinates + f->third] = f->third_value;
+    for (size_t k = 0; k < f->parameters; k++) x->at[x->coordinates + f->parameter[k]] = f->value[k];
 }
 
 /* Q = (denominator of M)^n det M (the other denominators) */
@@ -243,14 +238,15 @@ static bool multiplier(nh_parametric *f, const nh_jet_ring *r, const nh_residue 
     if (good) nh_parametric_determinant(r, x->n, M, out);
     for (size_t i = 0; i < f->factors && good; i++) {
         good = nh_jet_eval_all(v, 1, &f->factor[i], value);
-        for (size_t k = 0; k < f->of_mass[i] * x->n + f->of_rest[i] && good; k++) times(r, out, value, work);
+        for (size_t k = 0; k < f->of_mass[i] * x->n + f->of_rest[i] && good; k++)
+            nh_parametric_times(r, out, value, work);
     }
     nh_jet_eval_free(v);
     nh_free(M);
     return good;
 }
 
-bool nh_parametric_singular(nh_parametric *f, nh_prime field, nh_residue lambda, nh_residue mu)
+bool nh_parametric_singular(nh_parametric *f, nh_prime field)
 {
     enum { points = 3, attempts = 60 };
     bool linear = f->linear && f->linear->coefficient;
@@ -261,7 +257,7 @@ bool nh_parametric_singular(nh_parametric *f, nh_prime field, nh_residue lambda,
     bool regular = false;
     for (uint64_t seed = 0; seed < attempts && zeros < points && !regular && !f->obstacle; seed++) {
         if (!nh_parametric_choose(f, field, seed)) continue;
-        set_parameters(f, lambda, mu);
+        nh_parametric_set(f);
         if (linear ? !nh_parametric_linear_multiplier(f, r, Q) : !multiplier(f, r, f->counter.equations->at, Q))
             continue;
         zeros += !Q[0];
@@ -305,28 +301,26 @@ static bool plain_series(nh_parametric *f, const nh_jet_ring *r, nh_residue *coo
     return good;
 }
 
-bool nh_parametric_motion(nh_parametric *f, const nh_jet_ring *r, nh_residue *coordinate, nh_residue lambda,
-                          nh_residue mu, nh_residue *out)
+bool nh_parametric_motion(nh_parametric *f, const nh_jet_ring *r, nh_residue *coordinate, nh_residue *out)
 {
     nh_jet_equations *x = f->counter.equations;
     size_t rates_at = (1 + x->fields * nh_parametric_kept(f)) * r->size;
     size_t length = rates_at + x->n * nh_jet_equations_monomials(x->n) * r->size;
-    set_parameters(f, lambda, mu);
+    nh_parametric_set(f);
     bool good = plain(f) ? plain_series(f, r, coordinate, out + r->size)
                          : nh_adapted_frame_series(f->counter.frame, r, coordinate, out + r->size);
     good = good && multiplier(f, r, coordinate, out) && out[0] &&
            nh_jet_equations_accelerations(x, r, coordinate, out + rates_at);
     nh_residue *work = nh_alloc_array(r->size, sizeof *work);
-    for (size_t k = r->size; k < length && good; k += r->size) times(r, out + k, out, work);
+    for (size_t k = r->size; k < length && good; k += r->size) nh_parametric_times(r, out + k, out, work);
     nh_free(work);
     f->counter.work += (double)r->pairs[r->size] * (x->products + (double)length / (double)r->size);
     return good;
 }
 
-bool nh_parametric_value(nh_parametric *f, nh_parametric_series *s, nh_residue lambda, nh_residue mu, nh_residue *out)
+bool nh_parametric_value(nh_parametric *f, nh_parametric_series *s, nh_residue *out)
 {
-    return f->linear ? nh_parametric_linear_value(f, s, lambda, mu, out)
-                     : nh_parametric_motion(f, s->ring, s->coordinate, lambda, mu, out);
+    return f->linear ? nh_parametric_linear_value(f, s, out) : nh_parametric_motion(f, s->ring, s->coordinate, out);
 }
 
 /* ---- creation ---- */

@@ -14,8 +14,8 @@
  * Instead of the equations of motion the series may be those of a linear family (linear_family.h): Q, then its
  * coefficients times the common denominator Q.  They are in the coordinates of the file, or in those of the family.
  *
- * With two parameters, lambda and mu, there are G_ij for lambda^i mu^j. A second parameter may also be held at a
- * residue, and a third one, nu, is always. */
+ * With two parameters, lambda and mu, there are G_ij for lambda^i mu^j.  The second one may also be held at a residue,
+ * and a third one, nu, always is. */
 #ifndef NH_PARAMETRIC_H
 #define NH_PARAMETRIC_H
 
@@ -25,13 +25,10 @@
 
 typedef struct {
     nh_counter counter; /* the equations, with the parameter as a symbol, and the known integrals */
-    /* index of lambda in the model, whose other parameters are replaced by numbers, except mu and nu */
-    size_t parameter;
-    size_t second;    /* index of mu; SIZE_MAX: there is none */
-    bool held;        /* mu is held at the residue `value` */
-    nh_residue value; /* then the series are those of one parameter */
-    size_t third;     /* index of nu, which is always held at third_value; SIZE_MAX: there is none */
-    nh_residue third_value;
+    /* indices of lambda, mu, nu in the model, whose other parameters are replaced by numbers, and their residues */
+    size_t parameters, parameter[NH_MOST_PARAMETERS];
+    nh_residue value[NH_MOST_PARAMETERS];
+    bool held;                          /* mu keeps its residue, as nu always does: the series are those of lambda */
     bool shape;                         /* coefficients do not depend on cyclic coordinates, which are left out */
     const nh_linear_family *linear;     /* NULL: the equations of motion */
     nh_ex *entry;                       /* coefficients of `linear`, and masses, in canonical form */
@@ -47,19 +44,18 @@ bool nh_parametric_rational(nh_dag *dag, nh_ex e, nh_ex symbol);
 /* The obstacle of equations that do not depend on any parameter. */
 extern const char *const nh_parametric_constant;
 
-/* Borrows the model and the question, in which the parameters lambda, mu and nu (SIZE_MAX: there is none) are
- * indeterminates. */
-void nh_parametric_open(nh_parametric *family, const nh_model *model, const size_t parameter[3], bool shape,
-                        const nh_linear_family *linear, const nh_count_question *question);
+/* Borrows the model and the question, in which these parameters are indeterminates. */
+void nh_parametric_open(nh_parametric *family, const nh_model *model, size_t parameters, const size_t *parameter,
+                        bool shape, const nh_linear_family *linear, const nh_count_question *question);
 void nh_parametric_close(nh_parametric *family);
 
 /* Moves to another point, which follows from prime and seed; false: it is singular. */
 bool nh_parametric_choose(nh_parametric *family, nh_prime field, uint64_t seed);
 
-/* Is Q, and with it det M or what the equations are divided by, zero at this value of each parameter and every point?
+/* Is Q, and with it det M or what the equations are divided by, zero at the parameters' residues and every point?
  * There are no equations of motion, although they may have a limit (where a mass cancels, say).  Decided at three
  * points; the point of the family moves. */
-bool nh_parametric_singular(nh_parametric *family, nh_prime field, nh_residue lambda, nh_residue mu);
+bool nh_parametric_singular(nh_parametric *family, nh_prime field);
 
 typedef struct {
     nh_jet_ring *ring;
@@ -97,9 +93,18 @@ typedef struct {
  * more than `most` unknowns, companions included. The entries are on the heap. */
 bool nh_parametric_pencil(const nh_parametric *family, const nh_parametric_series *series, size_t degree,
                           nh_parity parity, size_t most, nh_sparse_pencil *out, nh_parametric_variable *variable);
-/* Rewrites, in place, a polynomial in that variable as one in the parameter; where the variable cannot tell, the origin
- * is added as a root. */
-void nh_parametric_back(const nh_parametric_variable *variable, nh_prime field, nh_residue_polynomial *chi);
+/* Rewrites, in place, a polynomial in lambda (v = 0) and mu (v = 1), of which this is the v-th variable, as one in the
+ * v-th parameter; where the variable cannot tell, the origin is added as a root. */
+void nh_parametric_back(const nh_parametric_variable *variable, int v, nh_prime field,
+                        nh_residue_polynomial *polynomial);
+
+/* The same for one level of a linear family, in lambda and mu themselves. */
+bool nh_parametric_linear_pencil(const nh_parametric *family, const nh_parametric_series *series, size_t level,
+                                 size_t most, nh_sparse_pencil *out);
+/* P of a linear family where its coefficients are `values` (nh_parametric_at); false: it would take more work than
+ * `most`. */
+bool nh_parametric_linear_dimension(const nh_parametric *family, const nh_parametric_series *series,
+                                    const nh_residue *values, size_t level, double most, size_t *out);
 
 /* The number of coordinates of the series, and the largest of their weights. */
 size_t nh_parametric_kept(const nh_parametric *family);

@@ -36,8 +36,8 @@ static size_t highest(size_t count, size_t length, const nh_residue *value)
     return 0;
 }
 
-/* Interpolates in lambda, at one value of mu: adds values until the last one changes nothing. */
-static bool in_lambda(nh_parametric *f, nh_parametric_series *s, nh_residue mu)
+/* Interpolates in lambda, at the residue of mu: adds values until the last one changes nothing. */
+static bool in_lambda(nh_parametric *f, nh_parametric_series *s)
 {
     nh_prime p = s->ring->field;
     uint64_t random = f->counter.equations->point->random + 77;
@@ -47,8 +47,8 @@ static bool in_lambda(nh_parametric *f, nh_parametric_series *s, nh_residue mu)
     for (size_t want = 4; want <= most_values && degree == most_values && !nh_late(); want *= 2) {
         size_t tries = 0;
         for (; have < want && tries < 3 * most_values; tries++) {
-            place[have] = nh_residue_random(p, &random);
-            if (nh_parametric_value(f, s, place[have], mu, value + have * s->length)) have++;
+            f->value[0] = place[have] = nh_residue_random(p, &random);
+            if (nh_parametric_value(f, s, value + have * s->length)) have++;
             else if (f->counter.equations->obstacle) break;
         }
         if (have < want) break;
@@ -159,11 +159,13 @@ static void divide_content_of_two(nh_parametric_series *s)
 /* The coefficients in lambda at these values of mu, one after the other, as many for each as at the first. */
 static bool columns(nh_parametric *f, nh_parametric_series *s, size_t count, const nh_residue *place, nh_residue **out)
 {
-    bool good = in_lambda(f, s, place[0]);
+    f->value[1] = place[0];
+    bool good = in_lambda(f, s);
     size_t degree = good ? s->degree : 0, length = (degree + 1) * s->length;
     nh_residue *value = *out = nh_alloc_array(count * length, sizeof *value);
     for (size_t k = 0; k < count && good; k++) {
-        good = (k == 0 || in_lambda(f, s, place[k])) && s->degree <= degree;
+        f->value[1] = place[k];
+        good = (k == 0 || in_lambda(f, s)) && s->degree <= degree;
         if (good) memcpy(value + k * length, s->coefficient, (s->degree + 1) * s->length * sizeof *value);
     }
     s->degree = degree;
@@ -194,7 +196,7 @@ static bool in_both(nh_parametric *f, nh_parametric_series *s)
 
 bool nh_parametric_interpolate(nh_parametric *f, nh_parametric_series *s)
 {
-    bool two = f->second != SIZE_MAX && !f->held, good = two ? in_both(f, s) : in_lambda(f, s, f->value);
+    bool two = f->parameters > 1 && !f->held, good = two ? in_both(f, s) : in_lambda(f, s);
     if (good && two) divide_content_of_two(s);
     else if (good) divide_content(s);
     return good;

@@ -269,18 +269,25 @@ static void choose_variables(assembly *x, size_t terms, term *t)
     for (size_t i = 0; i < terms; i++) powers(x, &t[i]);
 }
 
-void nh_parametric_back(const nh_parametric_variable *v, nh_prime f, nh_residue_polynomial *chi)
+void nh_parametric_back(const nh_parametric_variable *variable, int v, nh_prime f, nh_residue_polynomial *x)
 {
-    size_t degree = chi->degree;
-    nh_residue *c = nh_alloc_array(degree + 2, sizeof *c);
-    bool root = v->reciprocal || v->scaled;
-    for (size_t j = 0; j <= degree; j++) c[j + root] = chi->coefficient[v->reciprocal ? degree - j : j];
-    degree += root;
-    while (degree > 0 && !c[degree]) degree--; /* roots at infinity */
-    for (size_t i = 0; i < degree && v->origin; i++)
-        for (size_t j = degree; j-- > i;) c[j] = nh_residue_sub(f, c[j], nh_residue_mul(f, v->origin, c[j + 1]));
-    nh_free(chi->coefficient);
-    *chi = (nh_residue_polynomial){degree, c};
+    size_t root = variable->reciprocal || variable->scaled, D = x->degree[v], width = x->degree[0] + 1;
+    size_t out_width = v ? width : width + root, stride = v ? out_width : 1, others = x->degree[1 - v];
+    nh_residue *c = nh_alloc_array(out_width * (x->degree[1] + 1 + (v ? root : 0)), sizeof *c);
+    for (size_t other = 0; other <= others; other++) {
+        nh_residue *line = c + (v ? other : other * out_width);
+        const nh_residue *from = x->coefficient + (v ? other : other * width);
+        for (size_t k = 0; k <= D; k++)
+            line[(k + root) * stride] = from[(variable->reciprocal ? D - k : k) * (v ? width : 1)];
+        for (size_t i = 0; i < D + root && variable->origin; i++)
+            for (size_t j = D + root; j-- > i;)
+                line[j * stride] =
+                    nh_residue_sub(f, line[j * stride], nh_residue_mul(f, variable->origin, line[(j + 1) * stride]));
+    }
+    nh_free(x->coefficient);
+    x->coefficient = c;
+    x->degree[v] += root;
+    while (!x->degree[1] && x->degree[0] && !c[x->degree[0]]) x->degree[0]--; /* roots at infinity */
 }
 
 /* ---- the entries ---- */

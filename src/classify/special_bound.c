@@ -39,7 +39,7 @@ static bool put_exponent(const bound *b, nh_ex kernel, int64_t exponent, term *t
 {
     const nh_jet_equations *x = b->x;
     if (!exponent) return true;
-    if (kernel == x->model->parameter[b->family->parameter]) {
+    if (kernel == x->model->parameter[b->family->parameter[0]]) {
         t->power += exponent;
         return true;
     }

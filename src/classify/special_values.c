@@ -1,81 +1,78 @@
-/* Special values modulo primes, and over the rationals: FLINT's polynomials. */
+/* Special values over the rationals, by FLINT's polynomials in several variables. */
 #include "classify/special_values.h"
 
-#include <flint/fmpz_poly.h>
-#include <flint/fmpz_poly_factor.h>
+#include <flint/fmpq.h>
+#include <flint/fmpz_mpoly_factor.h>
 #include <flint/fmpz_vec.h>
+#include <flint/nmod_mpoly.h>
 #include <flint/nmod_poly.h>
 #include <flint/nmod_poly_factor.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
-#include "classify/special_values_internal.h"
 #include "exact/fraction.h"
 
-/* ---- modulo a prime ---- */
+enum { most = NH_MOST_PARAMETERS };
 
-static void take(nmod_poly_t out, const nh_residue_polynomial *p)
+/* ---- terms ---- */
+
+static size_t length_of(const size_t degree[most]) { return (degree[0] + 1) * (degree[1] + 1) * (degree[2] + 1); }
+
+/* The exponents of the coefficient with this index. */
+static void exponents_of(const size_t degree[most], size_t index, ulong e[most])
 {
-    nmod_poly_zero(out);
-    for (size_t j = 0; j <= p->degree; j++) nmod_poly_set_coeff_ui(out, (slong)j, p->coefficient[j]);
+    for (int v = 0; v < most; v++) {
+        e[v] = index % (degree[v] + 1);
+        index /= degree[v] + 1;
+    }
 }
 
-static nh_residue_polynomial written(const nmod_poly_t p)
+size_t nh_special_length(const nh_special_factor *s) { return length_of(s->degree); }
+
+int nh_special_variable(const nh_special_factor *s, size_t degree)
 {
-    nh_residue_polynomial out = {.degree = (size_t)nmod_poly_degree(p)};
-    out.coefficient = nh_alloc_array(out.degree + 1, sizeof *out.coefficient);
-    for (size_t j = 0; j <= out.degree; j++) out.coefficient[j] = (nh_residue)nmod_poly_get_coeff_ui(p, (slong)j);
+    int v = 0;
+    while (v < most && (degree ? s->degree[v] != degree : !s->degree[v])) v++;
+    return v;
+}
+
+bool nh_special_rational(const nh_special_factor *s, int64_t *top, int64_t *bottom)
+{
+    if (s->degree[0] + s->degree[1] + s->degree[2] != 1) return false;
+    *top = -s->coefficient[0];
+    *bottom = s->coefficient[1];
+    return true;
+}
+
+/* By degrees, then by coefficients from the highest on. */
+static int by_size(const void *a, const void *b)
+{
+    const nh_special_factor *x = a, *y = b;
+    for (int v = 0; v < most; v++)
+        if (x->degree[v] != y->degree[v]) return x->degree[v] < y->degree[v] ? -1 : 1;
+    for (size_t k = length_of(x->degree); k-- > 0;)
+        if (x->coefficient[k] != y->coefficient[k]) return x->coefficient[k] < y->coefficient[k] ? -1 : 1;
+    return 0;
+}
+
+bool nh_special_same(const nh_special_factor *a, const nh_special_factor *b) { return by_size(a, b) == 0; }
+
+nh_special_factor nh_special_copy(const nh_special_factor *from)
+{
+    nh_special_factor out = *from;
+    size_t count = length_of(from->degree);
+    out.coefficient = nh_alloc_array(count, sizeof *out.coefficient);
+    memcpy(out.coefficient, from->coefficient, count * sizeof *out.coefficient);
     return out;
 }
 
-/* p/gcd(p, p'), monic: degrees are below the prime. */
-static void squarefree(nmod_poly_t p, ulong modulus)
-{
-    nmod_poly_t d;
-    nmod_poly_init(d, modulus);
-    nmod_poly_derivative(d, p);
-    nmod_poly_gcd(d, p, d);
-    nmod_poly_div(p, p, d);
-    nmod_poly_make_monic(p, p);
-    nmod_poly_clear(d);
-}
+/* ---- lifting ---- */
 
-nh_special_roots nh_special_common(nh_prime f, const nh_residue_polynomial chi[2], const nh_residue_polynomial Q[2])
-{
-    nmod_poly_t all[2], singular[2], part;
-    nmod_poly_init(part, f.p);
-    for (int k = 0; k < 2; k++) {
-        nmod_poly_init(all[k], f.p);
-        nmod_poly_init(singular[k], f.p);
-        take(all[k], &chi[k]);
-        take(singular[k], &Q[k]);
-        nmod_poly_mul(all[k], all[k], singular[k]);
-        squarefree(all[k], f.p);
-        squarefree(singular[k], f.p);
-    }
-    nmod_poly_gcd(all[0], all[0], all[1]);
-    nmod_poly_gcd(singular[0], singular[0], singular[1]);
-    nmod_poly_gcd(part, all[0], singular[0]);
-    nmod_poly_div(all[0], all[0], part);
-    nh_special_roots out = {written(all[0]), written(singular[0])};
-    for (int k = 0; k < 2; k++) {
-        nmod_poly_clear(all[k]);
-        nmod_poly_clear(singular[k]);
-    }
-    nmod_poly_clear(part);
-    return out;
-}
-
-void nh_special_roots_clear(nh_special_roots *r)
-{
-    nh_free(r->excluded.coefficient);
-    nh_free(r->degenerate.coefficient);
-}
-
-/* ---- over the integers ---- */
-
-fmpz *nh_special_lift_numbers(size_t primes, const nh_prime *prime, size_t count, const nh_residue *const *residue)
+/* Rational numbers from their residues modulo all primes but the last, which has to confirm them, times their common
+ * denominator.  The caller frees the vector by _fmpz_vec_clear(.., count); NULL: a number was not confirmed. */
+static fmpz *lift_numbers(size_t primes, const nh_prime *prime, size_t count, const nh_residue_polynomial *residue)
 {
     fmpq_t *q = nh_alloc_array(count, sizeof *q);
     nh_residue *r = nh_alloc_array(primes, sizeof *r);
@@ -85,7 +82,7 @@ fmpz *nh_special_lift_numbers(size_t primes, const nh_prime *prime, size_t count
     fmpz_init_set_ui(common, 1);
     for (size_t k = 0; k < count; k++) fmpq_init(q[k]);
     for (size_t k = 0; k < count && good; k++) {
-        for (size_t i = 0; i < primes; i++) r[i] = residue[i][k];
+        for (size_t i = 0; i < primes; i++) r[i] = residue[i].coefficient[k];
         good = nh_fraction_of(primes, prime, r, q[k]);
         fmpz_lcm(common, common, fmpq_denref(q[k]));
     }
@@ -102,77 +99,58 @@ fmpz *nh_special_lift_numbers(size_t primes, const nh_prime *prime, size_t count
     return NULL;
 }
 
-/* False: a coefficient is too long for 64 bits. */
-static bool take_factor(nh_special_factor *out, const fmpz_poly_struct *p)
+/* Converts a factor.  False: a coefficient is too long for 64 bits. */
+static bool take_factor(nh_special_factor *out, const fmpz_mpoly_struct *p, const fmpz_mpoly_ctx_t ctx)
 {
+    fmpz_t c;
     bool good = true;
-    int sign = fmpz_sgn(fmpz_poly_lead(p));
-    out->degree = (size_t)fmpz_poly_degree(p);
-    out->coefficient = nh_alloc_array(out->degree + 1, sizeof *out->coefficient);
-    for (size_t j = 0; j <= out->degree && good; j++) {
-        const fmpz *c = fmpz_poly_get_coeff_ptr(p, (slong)j);
-        good = fmpz_fits_si(c);
-        if (good) out->coefficient[j] = sign * fmpz_get_si(c);
+    fmpz_init(c);
+    for (int v = 0; v < most; v++) {
+        slong degree = fmpz_mpoly_degree_si(p, v, ctx);
+        out->degree[v] = degree > 0 ? (size_t)degree : 0;
     }
+    size_t width = out->degree[0] + 1, each = width * (out->degree[1] + 1);
+    out->coefficient = nh_alloc_array(length_of(out->degree), sizeof *out->coefficient);
+    for (slong z = 0; z < fmpz_mpoly_length(p, ctx) && good; z++) {
+        ulong e[most];
+        fmpz_mpoly_get_term_exp_ui(e, p, z, ctx);
+        fmpz_mpoly_get_term_coeff_fmpz(c, p, z, ctx);
+        good = fmpz_fits_si(c);
+        if (good) out->coefficient[e[2] * each + e[1] * width + e[0]] = fmpz_get_si(c);
+    }
+    fmpz_clear(c);
     return good;
-}
-
-/* By degree, then by coefficients from the highest on. */
-static int by_size(const void *a, const void *b)
-{
-    const nh_special_factor *x = a, *y = b;
-    if (x->degree != y->degree) return x->degree < y->degree ? -1 : 1;
-    for (size_t j = x->degree + 1; j-- > 0;)
-        if (x->coefficient[j] != y->coefficient[j]) return x->coefficient[j] < y->coefficient[j] ? -1 : 1;
-    return 0;
 }
 
 nh_special_factors nh_special_lift(size_t primes, const nh_prime *prime, const nh_residue_polynomial *residue)
 {
     nh_special_factors out = {.norm = 1};
-    fmpz_poly_t p;
-    fmpz_poly_factor_t factors;
-    fmpz_poly_init(p);
-    fmpz_poly_factor_init(factors);
-    size_t count = residue[0].degree + 1;
-    const nh_residue **all = nh_alloc_array(primes, sizeof *all);
-    for (size_t i = 0; i < primes; i++) all[i] = residue[i].coefficient;
-    fmpz *lifted = primes > 1 ? nh_special_lift_numbers(primes, prime, count, all) : NULL;
-    nh_free(all);
-    if (lifted) {
-        out.lifted = true;
-        out.norm = 0;
-        for (size_t j = 0; j < count; j++) fmpz_poly_set_coeff_fmpz(p, (slong)j, lifted + j);
-        _fmpz_vec_clear(lifted, (slong)count);
-        for (slong j = 0; j <= fmpz_poly_degree(p); j++) out.norm += fabs(fmpz_get_d(fmpz_poly_get_coeff_ptr(p, j)));
-        if (fmpz_poly_degree(p) > 0) fmpz_poly_factor(factors, p);
-        out.factor = nh_alloc_array((size_t)factors->num + 1, sizeof *out.factor);
-        for (slong k = 0; k < factors->num; k++) out.lifted &= take_factor(&out.factor[out.factors++], factors->p + k);
-        qsort(out.factor, out.factors, sizeof *out.factor, by_size);
+    size_t count = length_of(residue[0].degree);
+    fmpz *number = primes > 1 ? lift_numbers(primes, prime, count, residue) : NULL;
+    if (!number) return out;
+    fmpz_mpoly_ctx_t ctx;
+    fmpz_mpoly_t p;
+    fmpz_mpoly_factor_t factors;
+    fmpz_mpoly_ctx_init(ctx, most, ORD_LEX);
+    fmpz_mpoly_init(p, ctx);
+    fmpz_mpoly_factor_init(factors, ctx);
+    out.norm = 0;
+    for (size_t z = 0; z < count; z++) {
+        ulong e[most];
+        exponents_of(residue[0].degree, z, e);
+        if (!fmpz_is_zero(number + z)) fmpz_mpoly_set_coeff_fmpz_ui(p, number + z, e, ctx);
+        out.norm += fabs(fmpz_get_d(number + z));
     }
-    fmpz_poly_factor_clear(factors);
-    fmpz_poly_clear(p);
+    out.lifted = fmpz_mpoly_factor(factors, p, ctx);
+    out.factor = nh_alloc_array((size_t)factors->num + 1, sizeof *out.factor);
+    for (slong k = 0; k < factors->num; k++)
+        out.lifted &= take_factor(&out.factor[out.factors++], factors->poly + k, ctx);
+    qsort(out.factor, out.factors, sizeof *out.factor, by_size);
+    fmpz_mpoly_factor_clear(factors, ctx);
+    fmpz_mpoly_clear(p, ctx);
+    fmpz_mpoly_ctx_clear(ctx);
+    _fmpz_vec_clear(number, (slong)count);
     return out;
-}
-
-bool nh_special_agrees(const nh_special_factors *of, nh_prime f, const nh_residue_polynomial *polynomial)
-{
-    nmod_poly_t all, part;
-    nmod_poly_init(all, f.p);
-    nmod_poly_init(part, f.p);
-    nmod_poly_one(all);
-    for (size_t k = 0; k < of->factors; k++) {
-        nmod_poly_zero(part);
-        for (size_t j = 0; j <= of->factor[k].degree; j++)
-            nmod_poly_set_coeff_ui(part, (slong)j, nh_residue_of(f, of->factor[k].coefficient[j]));
-        nmod_poly_mul(all, all, part);
-    }
-    take(part, polynomial);
-    if (!nmod_poly_is_zero(all)) nmod_poly_make_monic(all, all);
-    bool same = nmod_poly_equal(all, part);
-    nmod_poly_clear(part);
-    nmod_poly_clear(all);
-    return same;
 }
 
 void nh_special_factors_clear(nh_special_factors *f)
@@ -181,17 +159,15 @@ void nh_special_factors_clear(nh_special_factors *f)
     nh_free(f->factor);
 }
 
-/* ---- roots ---- */
+/* ---- modulo a prime ---- */
 
-bool nh_residue_polynomial_root(const nh_residue_polynomial *of, nh_prime f, nh_residue *root)
+/* The least root; false: there is none, or the degree is lower modulo the prime. */
+static bool least_root(const nmod_poly_t p, size_t degree, nh_prime f, nh_residue *root)
 {
-    nmod_poly_t p;
     nmod_poly_factor_t parts;
     bool found = false;
-    nmod_poly_init(p, f.p);
     nmod_poly_factor_init(parts);
-    take(p, of);
-    if (nmod_poly_degree(p) == (slong)of->degree && of->degree) nmod_poly_factor(parts, p);
+    if (nmod_poly_degree(p) == (slong)degree) nmod_poly_factor(parts, p);
     for (slong k = 0; k < parts->num; k++) {
         if (nmod_poly_degree(parts->p + k) != 1) continue;
         nh_residue top = (nh_residue)nmod_poly_get_coeff_ui(parts->p + k, 1),
@@ -201,44 +177,155 @@ bool nh_residue_polynomial_root(const nh_residue_polynomial *of, nh_prime f, nh_
         found = true;
     }
     nmod_poly_factor_clear(parts);
+    return found;
+}
+
+bool nh_special_point(const nh_special_factor *s, nh_prime f, uint64_t seed, nh_residue at[most])
+{
+    enum { tries = 40 };
+    uint64_t random = seed;
+    int v = nh_special_variable(s, 0);
+    bool found = false;
+    nmod_poly_t p;
+    nmod_poly_init(p, f.p);
+    for (int k = 0; k < tries && !found && v < most; k++) {
+        for (int i = 0; i < most; i++) at[i] = nh_residue_random(f, &random);
+        nmod_poly_zero(p);
+        for (size_t z = 0; z < length_of(s->degree); z++) {
+            ulong e[most];
+            exponents_of(s->degree, z, e);
+            nh_residue c = nh_residue_of(f, s->coefficient[z]);
+            for (int i = 0; i < most; i++)
+                if (i != v) c = nh_residue_mul(f, c, nh_residue_power(f, at[i], e[i]));
+            nmod_poly_set_coeff_ui(p, (slong)e[v],
+                                   nh_residue_add(f, (nh_residue)nmod_poly_get_coeff_ui(p, (slong)e[v]), c));
+        }
+        found = least_root(p, s->degree[v], f, &at[v]);
+    }
     nmod_poly_clear(p);
     return found;
 }
 
-bool nh_special_root(const nh_special_factor *factor, nh_prime f, nh_residue *root)
+/* p += c times the monomial */
+static void add_term(nmod_mpoly_t p, nh_prime f, nh_residue c, const ulong *e, const nmod_mpoly_ctx_t ctx)
 {
-    nh_residue_polynomial p = {.degree = factor->degree};
-    p.coefficient = nh_alloc_array(p.degree + 1, sizeof *p.coefficient);
-    for (size_t j = 0; j <= p.degree; j++) p.coefficient[j] = nh_residue_of(f, factor->coefficient[j]);
-    bool found = nh_residue_polynomial_root(&p, f, root);
-    nh_free(p.coefficient);
-    return found;
+    nh_residue sum = nh_residue_add(f, (nh_residue)nmod_mpoly_get_coeff_ui_ui(p, e, ctx), c);
+    nmod_mpoly_set_coeff_ui_ui(p, sum, e, ctx);
 }
 
-static double value(size_t degree, const double *c, double x)
+bool nh_special_cover(size_t factors, const nh_special_factor *s, nh_prime f, int v, nh_residue value,
+                      const nh_residue_polynomial *polynomial)
+{
+    nmod_mpoly_ctx_t ctx;
+    nmod_mpoly_t all, p;
+    nmod_mpoly_ctx_init(ctx, most, ORD_LEX, f.p);
+    nmod_mpoly_init(all, ctx);
+    nmod_mpoly_init(p, ctx);
+    nmod_mpoly_one(all, ctx);
+    for (size_t k = 0; k < factors; k++) {
+        nmod_mpoly_zero(p, ctx);
+        for (size_t z = 0; z < length_of(s[k].degree); z++) {
+            ulong e[most];
+            exponents_of(s[k].degree, z, e);
+            nh_residue c = nh_residue_of(f, s[k].coefficient[z]);
+            if (v < most) c = nh_residue_mul(f, c, nh_residue_power(f, value, e[v]));
+            if (v < most) e[v] = 0;
+            if (c) add_term(p, f, c, e, ctx);
+        }
+        nmod_mpoly_mul(all, all, p, ctx);
+    }
+    bool covered = !nmod_mpoly_is_zero(all, ctx);
+    nmod_mpoly_zero(p, ctx);
+    for (size_t z = 0; z < length_of(polynomial->degree); z++) {
+        ulong e[most];
+        exponents_of(polynomial->degree, z, e);
+        if (polynomial->coefficient[z]) add_term(p, f, polynomial->coefficient[z], e, ctx);
+    }
+    covered = covered && !nmod_mpoly_is_zero(p, ctx) && nmod_mpoly_divides(all, all, p, ctx);
+    nmod_mpoly_clear(p, ctx);
+    nmod_mpoly_clear(all, ctx);
+    nmod_mpoly_ctx_clear(ctx);
+    return covered;
+}
+
+/* ---- places ---- */
+
+static void read_factor(const nh_special_factor *s, fmpz_mpoly_t out, const fmpz_mpoly_ctx_t ctx)
+{
+    fmpz_mpoly_zero(out, ctx);
+    for (size_t z = 0; z < length_of(s->degree); z++) {
+        ulong e[most];
+        exponents_of(s->degree, z, e);
+        if (s->coefficient[z]) fmpz_mpoly_set_coeff_si_ui(out, s->coefficient[z], e, ctx);
+    }
+}
+
+/* Writes b/a for parameter v in p, times a^degree, where a v - b = 0 is the equation. */
+static void substitute(fmpz_mpoly_t p, int v, const nh_special_factor *equation, const fmpz_mpoly_ctx_t ctx)
+{
+    fmpz_mpoly_t with, a, b, c, sum, power;
+    fmpz_mpoly_struct *all[] = {with, a, b, c, sum, power};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) fmpz_mpoly_init(all[k], ctx);
+    read_factor(equation, with, ctx);
+    fmpz_mpoly_get_coeff_vars_ui(a, with, (slong[]){v}, (ulong[]){1}, 1, ctx);
+    fmpz_mpoly_get_coeff_vars_ui(b, with, (slong[]){v}, (ulong[]){0}, 1, ctx);
+    fmpz_mpoly_neg(b, b, ctx);
+    fmpz_mpoly_one(power, ctx);
+    slong degree = fmpz_mpoly_degree_si(p, v, ctx);
+    for (slong e = degree; e >= 0; e--) { /* Horner's scheme */
+        fmpz_mpoly_get_coeff_vars_ui(c, p, (slong[]){v}, (ulong[]){(ulong)e}, 1, ctx);
+        fmpz_mpoly_mul(sum, sum, b, ctx);
+        fmpz_mpoly_mul(c, c, power, ctx);
+        fmpz_mpoly_add(sum, sum, c, ctx);
+        fmpz_mpoly_mul(power, power, a, ctx);
+    }
+    fmpz_mpoly_swap(p, sum, ctx);
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) fmpz_mpoly_clear(all[k], ctx);
+}
+
+bool nh_special_contains(const nh_special_factor *s, const nh_special_place *place)
+{
+    fmpz_mpoly_ctx_t ctx;
+    fmpz_mpoly_t p, last;
+    fmpz_mpoly_ctx_init(ctx, most, ORD_LEX);
+    fmpz_mpoly_init(p, ctx);
+    fmpz_mpoly_init(last, ctx);
+    read_factor(s, p, ctx);
+    for (size_t k = 0; k + 1 < place->count; k++) substitute(p, place->gives[k], &place->equation[k], ctx);
+    read_factor(&place->equation[place->count - 1], last, ctx);
+    bool inside = fmpz_mpoly_is_zero(p, ctx) || fmpz_mpoly_divides(p, p, last, ctx);
+    fmpz_mpoly_clear(last, ctx);
+    fmpz_mpoly_clear(p, ctx);
+    fmpz_mpoly_ctx_clear(ctx);
+    return inside;
+}
+
+/* ---- real zeros ---- */
+
+static double value_of(size_t degree, const double *c, double x)
 {
     double y = 0;
     for (size_t j = degree + 1; j-- > 0;) y = y * x + c[j];
     return y;
 }
 
-/* Between roots of the derivative a polynomial is monotone. */
-size_t nh_special_roots_of(size_t degree, const double *c, double *out)
+/* The real roots of c_0 + c_1 x + .., ascending: between roots of the derivative a polynomial is monotone. */
+static size_t real_roots(size_t degree, const double *c, double *out)
 {
     while (degree && c[degree] == 0) degree--;
     if (degree == 0) return 0;
     double *slope = nh_alloc_array(degree, sizeof *slope), *turn = nh_alloc_array(degree + 2, sizeof *turn), bound = 0;
     for (size_t j = 1; j <= degree; j++) slope[j - 1] = (double)j * c[j];
     for (size_t j = 0; j < degree; j++) bound = fmax(bound, fabs(c[j] / c[degree]));
-    size_t turns = nh_special_roots_of(degree - 1, slope, turn + 1), count = 0;
+    size_t turns = real_roots(degree - 1, slope, turn + 1), count = 0;
     turn[0] = -1 - bound; /* Cauchy's bound */
     turn[turns + 1] = 1 + bound;
     for (size_t k = 0; k <= turns; k++) {
-        double low = turn[k], high = turn[k + 1], sign = value(degree, c, low);
-        if (sign * value(degree, c, high) > 0) continue;
+        double low = turn[k], high = turn[k + 1], sign = value_of(degree, c, low);
+        if (sign * value_of(degree, c, high) > 0) continue;
         for (int step = 0; step < 200; step++) {
             double middle = low + (high - low) / 2;
-            if (sign * value(degree, c, middle) > 0) low = middle;
+            if (sign * value_of(degree, c, middle) > 0) low = middle;
             else high = middle;
         }
         out[count++] = high;
@@ -248,11 +335,18 @@ size_t nh_special_roots_of(size_t degree, const double *c, double *out)
     return count;
 }
 
-size_t nh_special_reals(const nh_special_factor *factor, double *out)
+size_t nh_special_reals(const nh_special_factor *s, int v, const double at[most], double *out)
 {
-    double *c = nh_alloc_array(factor->degree + 1, sizeof *c);
-    for (size_t j = 0; j <= factor->degree; j++) c[j] = (double)factor->coefficient[j];
-    size_t count = nh_special_roots_of(factor->degree, c, out);
+    double *c = nh_alloc_array(s->degree[v] + 1, sizeof *c);
+    for (size_t z = 0; z < length_of(s->degree); z++) {
+        ulong e[most];
+        exponents_of(s->degree, z, e);
+        double term = (double)s->coefficient[z];
+        for (int w = 0; w < most; w++)
+            if (w != v && e[w]) term *= pow(at[w], (double)e[w]);
+        c[e[v]] += term;
+    }
+    size_t count = real_roots(s->degree[v], c, out);
     nh_free(c);
     return count;
 }

@@ -10,21 +10,27 @@
  * until E is square and invertible. Then chi = det(lambda + E^-1 A) is the product of the finite elementary divisors:
  * rank A(lambda) is that of almost all values exactly where chi(lambda) is not zero.
  *
- * With two parameters the same steps for [.. | A_01 | A_10 | A_00] leave small matrices with the same loss of rank. */
+ * With two parameters the same steps for [.. | A_01 | A_10 | A_00] leave small matrices with the same loss of rank.
+ * For their generic rank R and random constant L (R x rows) and C (columns x R), det(L A C) vanishes wherever the rank
+ * of A is below R; elsewhere two of these compressions have no common zero, except at points that depend on the random
+ * choices and differ from one choice to the next. */
 #ifndef NH_STAIRCASE_H
 #define NH_STAIRCASE_H
 
 #include "classify/sparse_pencil.h"
 
-/* A polynomial modulo a prime, from the constant term on; on the heap. */
+enum { NH_MOST_PARAMETERS = 3 };
+
+/* sum of coefficient[(k * (degree[1] + 1) + j) * (degree[0] + 1) + i] lambda^i mu^j nu^k modulo a prime; a parameter
+ * that does not occur has degree 0.  The coefficients are on the heap. */
 typedef struct {
-    size_t degree;
+    size_t degree[NH_MOST_PARAMETERS];
     nh_residue *coefficient;
 } nh_residue_polynomial;
 
-/* chi, monic, and the generic nullity: the columns less the rank for almost all values.  Takes at most `products`
- * products of residues, which becomes what is left, negative when it did not suffice.  Returns false then, and after
- * the deadline (base/progress.h). */
+/* chi(lambda), monic, and the generic nullity: the columns less the rank for almost all values.  Takes at most
+ * `products` products of residues, which becomes what is left, negative when it did not suffice.  Returns false then,
+ * and after the deadline (base/progress.h). */
 bool nh_staircase(const nh_sparse_pencil *pencil, nh_prime field, double *products, nh_residue_polynomial *chi,
                   size_t *nullity);
 
@@ -34,6 +40,13 @@ typedef struct {
     nh_residue *entry;
 } nh_staircase_matrices;
 nh_staircase_matrices nh_staircase_reduce(const nh_sparse_pencil *pencil, nh_prime field, double *products);
+
+/* The generic rank R of the matrices, at random residues. */
+size_t nh_staircase_generic_rank(const nh_staircase_matrices *matrices, nh_prime field);
+/* The determinant of one compression, of degree R times that of the matrices; each seed chooses another one.  False:
+ * the deadline is over. */
+bool nh_staircase_determinant(const nh_staircase_matrices *matrices, nh_prime field, size_t rank, uint64_t seed,
+                              nh_residue_polynomial *out);
 
 /* The rank at one value of the only parameter. */
 size_t nh_staircase_rank(const nh_sparse_pencil *pencil, nh_prime field, nh_residue lambda);

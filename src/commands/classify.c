@@ -1,5 +1,4 @@
-/* From a system file and the name of a parameter to its special values, with the currents that hold there. */
-#include <inttypes.h>
+/* From a system file and names of parameters to their special values, with the currents that hold there. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +12,8 @@ enum { chosen_degree = 4 };
 
 /* ---- the family ---- */
 
-bool nh_classified_parameter(const nh_system *s, const char *name, size_t *out, nh_error *error)
+/* The index of a parameter; false with an error. */
+static bool find_parameter(const nh_system *s, const char *name, size_t *out, nh_error *error)
 {
     for (*out = 0; *out < s->parameters; ++*out)
         if (!strcmp(s->parameter[*out].name, name)) return true;
@@ -30,8 +30,9 @@ static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_
     for (size_t i = 0; i < s->parameters; i++) {
         nh_num value = nh_num_decimal(s->parameter[i].value);
         const char *name = s->parameter[i].name;
-        if (!strcmp(name, q->over) || (q->second && !strcmp(name, q->second)) || (q->third && !strcmp(name, q->third)))
-            continue;
+        bool varies = false;
+        for (size_t k = 0; k < x->parameters; k++) varies |= !strcmp(name, x->over[k]);
+        if (varies) continue;
         if (!nh_num_short(value)) {
             char digits[32];
             nh_text_number(s->parameter[i].value, digits, sizeof digits);
@@ -61,11 +62,11 @@ nh_setting *nh_classified_settings(const nh_classified *x, size_t count, const n
     return setting;
 }
 
-static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q, size_t count, const nh_setting *at,
-                            bool model_only, nh_error *error)
+static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q, const nh_setting *at, bool model_only,
+                            nh_error *error)
 {
     size_t all;
-    nh_setting *setting = nh_classified_settings(x, count, at, &all);
+    nh_setting *setting = nh_classified_settings(x, x->parameters, at, &all);
     nh_request request = {.line = q->command,
                           .system_path = q->system_path,
                           .settings = all,
@@ -78,41 +79,32 @@ static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q
     return r;
 }
 
-nh_analysis *nh_classified_analyse(const nh_classified *x, const nh_classify_request *q, size_t count,
-                                   const nh_setting *at, nh_error *error)
-{
-    return analyse(x, q, count, at, q->of != NH_OF_CURRENTS, error);
-}
-
 static bool polynomial_in_velocities(const nh_analysis *r, const nh_current *f)
 {
     return f->proof.proved && !f->series && !nh_depends(r->model->dag, f->phi, r->system->t);
 }
 
+/* Reads the system and analyses it at values of the parameters that have no special meaning. */
 static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error *error)
 {
-    const char *name[3] = {q->over, q->second, q->third};
-    nh_setting at[3];
-    size_t count = q->third ? 3 : q->second ? 2 : 1, parameter[3];
+    static const double apart[NH_MOST_PARAMETERS] = {1, 1.0313, 0.9527};
+    nh_setting at[NH_MOST_PARAMETERS];
+    size_t index[NH_MOST_PARAMETERS];
+    while (x->parameters < NH_MOST_PARAMETERS && q->over[x->parameters]) x->parameters++;
     nh_system *s = nh_system_read(q->system_path, q->settings, q->setting, error);
     if (!s) return false;
     bool good = nh_system_needs_values(s, "a classification", error);
-    for (size_t k = 0; k < count && good; k++) {
-        static const double apart[] = {1, 1.0313, 0.9527};
-        good = nh_classified_parameter(s, name[k], &parameter[k], error);
+    for (size_t k = 0; k < x->parameters && good; k++) {
+        const char *name = x->over[k] = nh_arena_strdup(x->arena, q->over[x->parameters - 1 - k]);
+        good = find_parameter(s, name, &index[k], error);
         for (size_t j = 0; j < k && good; j++)
-            if (parameter[j] == parameter[k]) good = nh_fail(error, NH_USAGE, "", "--over names `%s` twice", name[k]);
-        name[k] = nh_arena_strdup(x->arena, name[k]);
-        if (good)
-            at[k] = (nh_setting){.name = name[k], .value = unimportant(s->parameter[parameter[k]].value * apart[k])};
+            if (index[j] == index[k]) good = nh_fail(error, NH_USAGE, "", "--over names `%s` twice", name);
+        if (good) at[k] = (nh_setting){.name = name, .value = unimportant(s->parameter[index[k]].value * apart[k])};
     }
     if (good && fix_others(x, q, s, error)) {
         x->name = nh_arena_strdup(x->arena, s->name);
         x->title = nh_arena_strdup(x->arena, s->title);
-        x->over = name[0];
-        x->second = name[1];
-        x->third = name[2];
-        x->almost_all = nh_classified_analyse(x, q, count, at, error);
+        x->almost_all = analyse(x, q, at, q->of != NH_OF_CURRENTS, error);
     }
     nh_system_free(s);
     return x->almost_all != NULL;
@@ -125,7 +117,8 @@ const nh_current *nh_classified_current(const nh_analysis *r, size_t index)
     return index < r->count ? &r->found[index] : &r->further[index - r->count].current;
 }
 
-nh_ex *nh_classified_known(nh_classified *x)
+/* The currents that hold for every value, on the heap. */
+static nh_ex *known_currents(nh_classified *x)
 {
     const nh_analysis *r = x->almost_all;
     nh_ex *phi = nh_alloc_array(r->count + r->furthers + 1, sizeof *phi);
@@ -143,14 +136,6 @@ nh_ex *nh_classified_known(nh_classified *x)
     return phi;
 }
 
-bool nh_classified_rational(const nh_special_factor *f, int64_t *top, int64_t *bottom)
-{
-    if (f->degree != 1) return false;
-    *top = -f->coefficient[0];
-    *bottom = f->coefficient[1];
-    return true;
-}
-
 /* The count of an analysis that has the coefficients of the family's: where the family depends on time, functions of
  * time too, also at a value at which the system does not. */
 static const nh_completeness *completeness_of(const nh_classified *x, const nh_analysis *r)
@@ -159,13 +144,16 @@ static const nh_completeness *completeness_of(const nh_classified *x, const nh_a
     return &r->completeness[timely ? NH_COMPLETE_IN_TIME : NH_COMPLETE_IN_COORDINATES];
 }
 
-size_t nh_classified_complete(const nh_classified *x, const nh_analysis *r)
+/* The degree up to which the currents of an analysis account for the number of integrals; 0: none. */
+static size_t complete_degree(const nh_classified *x, const nh_analysis *r)
 {
     const nh_completeness *c = completeness_of(x, r);
     return c->counted && !c->count.obstacle && !c->regional ? c->degree : 0;
 }
 
-size_t nh_classified_exact(const nh_classified *x, const nh_analysis *r, size_t rows, nh_classify_number *number)
+/* Takes the analysis' own bounds into the numbers of degrees 1 .. rows where they are lower; the degree up to which the
+ * products of its currents are as many. */
+static size_t exact_degree(const nh_classified *x, const nh_analysis *r, size_t rows, nh_classify_number *number)
 {
     const nh_completeness *c = completeness_of(x, r);
     size_t d = 0;
@@ -179,28 +167,41 @@ size_t nh_classified_exact(const nh_classified *x, const nh_analysis *r, size_t 
     return d;
 }
 
-size_t nh_classified_complete_everywhere(const nh_classified *x)
+void nh_classified_analyse(nh_classified *x, const nh_classify_request *q, const nh_setting *at, nh_classify_special *v,
+                           nh_classified_finding *out)
 {
-    const nh_analysis *r = x->almost_all;
-    return x->known == r->count + r->furthers ? nh_classified_complete(x, r) : 0;
+    nh_error error;
+    nh_error_clear(&error);
+    nh_analysis *r = analyse(x, q, at, false, &error);
+    *out = (nh_classified_finding){.result = r, .why = r ? NULL : nh_arena_strdup(x->arena, error.what)};
+    if (!r) return;
+    nh_grow(&x->own, &x->owned_capacity, x->owned + 1, sizeof *x->own);
+    x->own[x->owned++] = r;
+    out->count = r->count + r->furthers;
+    out->complete = complete_degree(x, r);
+    out->exact = exact_degree(x, r, x->classification->rows, v->number);
 }
 
-static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_classify_value *v,
-                          nh_classified_value *out)
+/* ---- parts ---- */
+
+/* What holds at a value of one parameter. */
+static void examine_value(nh_classified *x, const nh_classify_request *q, nh_classify_special *v,
+                          nh_classified_finding *out)
 {
+    const nh_classification *c = x->classification;
     int64_t top, bottom;
     nh_error error;
     if (!v->first && !v->degenerate) return;
-    if (!nh_classified_rational(&v->polynomial, &top, &bottom)) {
+    if (!nh_special_rational(&v->polynomial, &top, &bottom)) {
         if (!v->degenerate)
             out->why = x->question ? "it is looked at more closely at rational values only"
                                    : "currents are constructed at rational values only";
         return;
     }
     nh_error_clear(&error);
-    nh_setting at = {.name = x->over, .value = (double)top / (double)bottom, .top = top, .bottom = bottom};
+    nh_setting at = {.name = x->over[0], .value = (double)top / (double)bottom, .top = top, .bottom = bottom};
     if (v->degenerate) { /* the reason is that of the system there */
-        nh_analysis *none = analyse(x, q, 1, &at, true, &error);
+        nh_analysis *none = analyse(x, q, &at, true, &error);
         out->why = none ? NULL : nh_arena_strdup(x->arena, error.what);
         nh_analysis_free(none);
         return;
@@ -211,12 +212,8 @@ static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_cla
         out->exact = out->complete;
         return;
     }
-    nh_analysis *r = out->result = nh_classified_analyse(x, q, 1, &at, &error);
-    out->why = r ? NULL : nh_arena_strdup(x->arena, error.what);
-    if (!r) return;
-    out->complete = nh_classified_complete(x, r);
-    const nh_classification *c = x->classification;
-    out->exact = nh_classified_exact(x, r, c->rows, v->number);
+    nh_classified_analyse(x, q, &at, v, out);
+    if (!out->result) return;
     if (v->open && v->open <= out->exact) { /* decided: there may be more from that degree on */
         v->first = v->open < v->first ? v->open : v->first;
         v->open = 0;
@@ -225,7 +222,92 @@ static void analyse_value(nh_classified *x, const nh_classify_request *q, nh_cla
         v->first = v->first < c->rows ? v->first + 1 : 0;
 }
 
-nh_classified *nh_classified_open(const nh_classify_request *q, nh_error *error)
+/* The degree up to which products of currents that are proved everywhere on a curve or surface are as many as were
+ * counted. */
+static size_t complete_within(const nh_classified *x, const nh_classify_special *special, const nh_classified *within)
+{
+    const nh_classification *c = within->classification;
+    const nh_analysis *r = within->almost_all;
+    size_t d = 0;
+    if (!special || !special->first) return 0;
+    if (c->obstacle == nh_parametric_constant)
+        d = within->known == r->count + r->furthers ? complete_degree(within, r) : 0;
+    else
+        while (d < c->rows && d < x->classification->rows && c->row[d].known == c->row[d].number.bound) d++;
+    return d >= special->first ? d : 0;
+}
+
+/* Classifies on a curve, surface or wall over all parameters but the one that it gives. */
+static void classify_within(nh_classified *x, const nh_classify_request *q, nh_classified_part *p)
+{
+    int64_t top, bottom;
+    nh_error error;
+    nh_error_clear(&error);
+    p->finding.why =
+        x->parameters == 2
+            ? "currents are constructed on curves on which one parameter is a rational function of the other"
+            : "currents are constructed on surfaces on which one parameter is a rational function of the "
+              "others";
+    p->gives = nh_special_variable(p->polynomial, 1);
+    if (p->gives == NH_MOST_PARAMETERS) return;
+    const char *name = x->over[p->gives], *formula = nh_classified_graph(x, p->polynomial, p->gives);
+    nh_setting *setting = nh_arena_alloc(x->arena, (x->others + 1) * sizeof *setting);
+    setting[0] = (nh_setting){.name = name, .formula = formula};
+    if (nh_special_rational(p->polynomial, &top, &bottom)) {
+        formula = nh_classified_ratio(x->arena, top, bottom);
+        setting[0] = (nh_setting){.name = name, .value = (double)top / (double)bottom, .top = top, .bottom = bottom};
+    }
+    memcpy(setting + 1, x->other, x->others * sizeof *setting); /* some of these may depend on it */
+    nh_classify_request request = *q;
+    memset(request.over, 0, sizeof request.over);
+    for (size_t k = 0, v = x->parameters; v-- > 0;)
+        if ((int)v != p->gives) request.over[k++] = x->over[v];
+    request.settings = x->others + 1;
+    request.setting = setting;
+    request.options.degree = (double)x->classification->rows;
+    p->graph = nh_arena_printf(x->arena, "%s = %s", name, formula);
+    const nh_classified *within = p->within = nh_classify_system(&request, &error);
+    p->finding.why = within ? NULL : nh_arena_strdup(x->arena, error.what);
+    if (!within) return;
+    x->partial |= within->partial;
+    size_t complete = complete_within(x, p->special, within);
+    p->finding = (nh_classified_finding){.result = within->almost_all,
+                                         .count = within->known,
+                                         .index = within->currents,
+                                         .complete = complete,
+                                         .exact = complete};
+}
+
+/* One part for each value, curve or surface, then one for each wall of three parameters: cylinders, then planes. */
+static void list_parts(nh_classified *x)
+{
+    nh_classification *c = x->classification;
+    x->part = nh_arena_alloc(x->arena, (c->specials + c->walls + 1) * sizeof *x->part);
+    for (; x->parts < c->specials; x->parts++)
+        x->part[x->parts] =
+            (nh_classified_part){.polynomial = &c->special[x->parts].polynomial, .special = &c->special[x->parts]};
+    for (int plane = 0; plane < 2 && x->parameters == 3; plane++)
+        for (size_t k = 0; k < c->walls; k++)
+            if ((nh_special_variable(&c->wall[k].polynomial, 0) == 2) == plane)
+                x->part[x->parts++] = (nh_classified_part){.polynomial = &c->wall[k].polynomial};
+}
+
+static void examine_parts(nh_classified *x, const nh_classify_request *q)
+{
+    nh_classification *c = x->classification;
+    for (size_t k = 0; k < x->parts; k++) {
+        nh_classified_part *p = &x->part[k];
+        nh_classify_special *special = k < c->specials ? &c->special[k] : NULL;
+        if (!special || !special->degenerate) p->finding.why = "the run was ended";
+        if (nh_interrupted() || !c->rows) continue;
+        if (x->parameters == 1) examine_value(x, q, special, &p->finding);
+        else if (!special || !special->degenerate) classify_within(x, q, p);
+    }
+}
+
+/* ---- the whole ---- */
+
+static nh_classified *open_family(const nh_classify_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_classified *x = nh_arena_alloc(arena, sizeof *x);
@@ -238,9 +320,10 @@ nh_classified *nh_classified_open(const nh_classify_request *q, nh_error *error)
     return NULL;
 }
 
-nh_classify_question nh_classified_question(nh_classified *x, const nh_classify_request *q, const nh_ex *known)
+static nh_classify_question question_of(const nh_classified *x, const nh_classify_request *q, const nh_ex *known)
 {
-    nh_classify_question question = {.shape = q->shape,
+    nh_classify_question question = {.parameters = x->parameters,
+                                     .shape = q->shape,
                                      .degree = x->degree,
                                      .work = q->options.count_work,
                                      .products = q->options.staircase,
@@ -253,77 +336,38 @@ nh_classify_question nh_classified_question(nh_classified *x, const nh_classify_
                                      .current = known};
     nh_error none;
     nh_error_clear(&none);
-    nh_classified_parameter(x->almost_all->system, x->over, &question.parameter, &none);
+    for (size_t k = 0; k < x->parameters; k++)
+        find_parameter(x->almost_all->system, x->over[k], &question.parameter[k], &none);
     return question;
 }
 
 nh_classified *nh_classify_system(const nh_classify_request *q, nh_error *error)
 {
-    nh_classified *x = nh_classified_open(q, error);
+    nh_classified *x = open_family(q, error);
     if (!x) return NULL;
-    nh_ex *phi = nh_classified_known(x);
-    nh_classify_question question = nh_classified_question(x, q, phi);
+    nh_ex *phi = known_currents(x);
+    nh_classify_question question = question_of(x, q, phi);
     if (q->of != NH_OF_CURRENTS) x->question = nh_linear_system_create(x->almost_all->model, q->of, &q->options);
     if (x->question) question.linear = &x->question->family;
     if (x->question && x->question->obstacle) x->classification = nh_classification_refused(x->question->obstacle);
     else x->classification = nh_classify(x->almost_all->model, &question);
     nh_free(phi);
-    x->value = nh_arena_alloc(x->arena, (x->classification->values + 1) * sizeof *x->value);
-    for (size_t k = 0; k < x->classification->values && !nh_interrupted(); k++)
-        analyse_value(x, q, &x->classification->value[k], &x->value[k]);
-    x->partial = nh_interrupted();
+    list_parts(x);
+    examine_parts(x, q);
+    nh_classified_list_places(x, q);
+    x->partial |= nh_interrupted();
     return x;
 }
 
 void nh_classified_free(nh_classified *x)
 {
     if (!x) return;
-    for (size_t k = 0; x->value && k < x->classification->values; k++) nh_analysis_free(x->value[k].result);
+    for (size_t k = 0; k < x->parts; k++) nh_classified_free(x->part[k].within);
+    for (size_t k = 0; k < x->owned; k++) nh_analysis_free(x->own[k]);
+    nh_free(x->own);
+    nh_free(x->place);
     nh_classification_free(x->classification);
     nh_linear_system_free(x->question);
     nh_analysis_free(x->almost_all);
     nh_arena_free(x->arena);
-}
-
-/* ---- words ---- */
-
-static void put_polynomial(const nh_special_factor *f, const char *name, nh_text *out)
-{
-    for (size_t j = f->degree + 1, written = 0; j-- > 0;) {
-        int64_t c = f->coefficient[j];
-        if (!c) continue;
-        nh_text_add(out, written++ == 0 ? (c < 0 ? "-" : "") : c < 0 ? " - " : " + ");
-        uint64_t size = c < 0 ? 0 - (uint64_t)c : (uint64_t)c;
-        if (size != 1 || j == 0) nh_text_addf(out, "%" PRIu64 "%s", size, j ? "*" : "");
-        if (j) nh_text_add(out, name);
-        if (j > 1) nh_text_addf(out, "^%zu", j);
-    }
-}
-
-const char *nh_classified_words(const nh_classified *x, const nh_special_factor *f)
-{
-    return nh_classified_values(x, x->over, f);
-}
-
-const char *nh_classified_values(const nh_classified *x, const char *name, const nh_special_factor *f)
-{
-    int64_t top, bottom;
-    nh_text text;
-    nh_text_init(&text);
-    if (nh_classified_rational(f, &top, &bottom)) {
-        nh_text_addf(&text, "%s = %" PRId64, name, top);
-        if (bottom != 1) nh_text_addf(&text, "/%" PRId64, bottom);
-    } else {
-        double *root = nh_alloc_array(f->degree + 1, sizeof *root);
-        size_t reals = nh_special_reals(f, root);
-        put_polynomial(f, name, &text);
-        nh_text_add(&text, reals ? " = 0 (" : " = 0 (no real value");
-        for (size_t k = 0; k < reals; k++)
-            nh_text_addf(&text, "%s%.8g", k ? ", " : nh_arena_printf(x->arena, "%s = ", name), root[k]);
-        nh_text_add(&text, ")");
-        nh_free(root);
-    }
-    const char *out = nh_arena_strdup(x->arena, nh_text_string(&text));
-    nh_text_clear(&text);
-    return out;
 }

@@ -12,7 +12,7 @@
 /* ---- groups ---- */
 
 static void symmetries(nh_classified *x, const nh_kinetic *k, const nh_options *options, size_t bound,
-                       nh_classified_value *out)
+                       nh_classified_finding *out)
 {
     nh_error none = {0};
     nh_group *g = nh_group_find(k, options, &none);
@@ -37,7 +37,7 @@ static void symmetries(nh_classified *x, const nh_kinetic *k, const nh_options *
 
 /* ---- brackets ---- */
 
-static void growth(nh_classified *x, const nh_model *o, nh_classified_value *out)
+static void growth(nh_classified *x, const nh_model *o, nh_classified_finding *out)
 {
     nh_distribution d = nh_distribution_of(o);
     nh_text text;
@@ -52,7 +52,7 @@ static void growth(nh_classified *x, const nh_model *o, nh_classified_value *out
 
 /* ---- a Chaplygin reduction ---- */
 
-static void density(nh_classified *x, const nh_reduction_stage *s, nh_classified_value *out)
+static void density(nh_classified *x, const nh_reduction_stage *s, nh_classified_finding *out)
 {
     const nh_chaplygin_measure *m = &s->measure;
     nh_text text;
@@ -73,7 +73,7 @@ static void density(nh_classified *x, const nh_reduction_stage *s, nh_classified
     nh_text_clear(&text);
 }
 
-static void reduced(nh_classified *x, const nh_request *request, nh_classified_value *out)
+static void reduced(nh_classified *x, const nh_request *request, nh_classified_finding *out)
 {
     nh_error none = {0};
     nh_reduction *r = nh_reduction_create(request, &none);
@@ -89,7 +89,7 @@ static void reduced(nh_classified *x, const nh_request *request, nh_classified_v
 /* ---- all of them ---- */
 
 void nh_classified_confirm(nh_classified *x, const nh_classify_request *q, const nh_setting *at, size_t bound,
-                           nh_classified_value *out)
+                           nh_classified_finding *out)
 {
     nh_error none = {0};
     size_t count;

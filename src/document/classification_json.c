@@ -1,4 +1,4 @@
-/* The classification over one parameter as JSON. */
+/* A classification as JSON. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -6,13 +6,7 @@
 #include "document/classification_internal.h"
 #include "graph/print.h"
 
-static const nh_classification *of(const nh_classified *x) { return x->classification; }
-
-static bool exact(const nh_classify_row *row) { return row->number.bound == row->known; }
-
-static bool special(const nh_classify_value *v) { return v->first > 0 && !v->degenerate; }
-
-/* ---- parts shared with two and three parameters ---- */
+/* ---- pieces ---- */
 
 static void put_number(nh_json *to, const char *key, const nh_classify_number *n)
 {
@@ -33,9 +27,7 @@ static void put_head(const nh_classified *x, nh_json *root)
     nh_json_put_text(root, "version", NH_VERSION);
     nh_json_put_text(root, "system", x->name);
     nh_json *over = nh_json_put_array(root, "over");
-    if (x->third) nh_json_add_text(over, x->third);
-    if (x->second) nh_json_add_text(over, x->second);
-    nh_json_add_text(over, x->over);
+    for (size_t v = x->parameters; v-- > 0;) nh_json_add_text(over, x->over[v]);
     nh_json *parameters = nh_json_put_object(root, "parameters");
     for (size_t i = 0; i < x->fixed; i++) nh_json_put_number(parameters, x->other[i].name, x->other[i].value);
     nh_json_put_text(root, "of", nh_linear_question_name(x->of));
@@ -48,10 +40,11 @@ static void put_head(const nh_classified *x, nh_json *root)
     nh_json_put_number(root, "degree", (double)x->degree);
 }
 
-void nh_classification_put_currents(const nh_analysis *r, size_t count, const size_t *index, nh_json *to)
+/* The currents proved at a place or for almost all values; "current" is null when it is longer than the option
+ * `written`. */
+static void put_currents(const nh_analysis *r, size_t count, const size_t *index, nh_json *to)
 {
     nh_json *list = nh_json_put_array(to, "currents");
-    if (r && !index) count = r->count + r->furthers;
     for (size_t k = 0; r && k < count; k++) {
         const nh_current *f = nh_classified_current(r, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
@@ -74,159 +67,124 @@ static void put_here(nh_json *to, size_t rows, const nh_classify_number *number)
     }
 }
 
-/* ---- two and three parameters ---- */
-
-nh_json *nh_classification_begin(const nh_classified *x, const char *obstacle, const char *end, size_t rows,
-                                 const nh_plane_row *row)
-{
-    nh_json *root = nh_json_object();
-    put_head(x, root);
-    nh_json_put_text(root, "obstacle", obstacle);
-    nh_json_put_text(root, "ended_by", end);
-    nh_json_put_number(root, "generic", rows ? (double)row[rows - 1].number.bound : NAN);
-    nh_classification_put_currents(x->almost_all, x->known, x->currents, root);
-    return root;
-}
-
-void nh_classification_put_along(const nh_classified *along, nh_json *to)
-{
-    nh_classification_put_currents(along ? along->almost_all : NULL, along ? along->known : 0,
-                                   along ? along->currents : NULL, to);
-}
-
 static void put_primes(nh_json *to, size_t count, const uint64_t *prime)
 {
     nh_json *primes = nh_json_put_array(to, "primes");
     for (size_t i = 0; i < count; i++) nh_json_add_number(primes, (double)prime[i]);
 }
 
-nh_json *nh_classification_add_degree(nh_json *list, size_t degree, const nh_plane_row *row, double height)
-{
-    nh_json *item = nh_json_add_object(list);
-    nh_json_put_number(item, "degree", (double)degree);
-    put_number(item, "almost_all", &row->number);
-    nh_json_put_number(item, "known", (double)row->known);
-    nh_json_put_bool(item, "exact", row->number.bound == row->known);
-    nh_json_put_number(item, "unknowns", (double)row->unknowns);
-    nh_json_put_number(item, "determinant", (double)row->size);
-    nh_json_put_bool(item, "lifted", row->lifted);
-    put_primes(item, row->primes, row->prime);
-    nh_json_put_number(item, "excluded_height", height);
-    return item;
-}
+/* ---- degrees ---- */
 
-void nh_classification_put_found(nh_json *item, size_t rows, size_t first, const nh_classify_number *number,
-                                 bool proved, const char *why)
+/* Keys of one parameter, in addition to those of all. */
+static void put_value_row(const nh_classify_row *row, nh_json *item)
 {
-    nh_json_put_number(item, "from_degree", (double)first);
-    nh_json_put_number(item, "dimension", (double)number[rows].bound);
-    put_here(item, rows, number);
-    nh_json_put_bool(item, "proved", proved);
-    nh_json_put_text(item, "not_constructed_because", why);
+    nh_json_put_bool(item, "excluded_everywhere", row->theorem);
+    nh_json_put_number(item, "primes_for_everywhere", row->bits > 0 ? (double)row->theorem_primes : NAN);
+    put_number(item, "infinity", &row->infinite);
 }
-
-nh_json *nh_classification_put_open(const nh_classified *x, nh_json *root, size_t count, const nh_plane_curve *curve)
-{
-    nh_json *degenerate = nh_json_put_array(root, "degenerate"), *undecided = nh_json_put_array(root, "undecided");
-    for (size_t k = 0; k < count; k++) {
-        const char *words = nh_classified_surface_words(x, &curve[k].polynomial);
-        if (curve[k].degenerate) nh_json_add_text(degenerate, words);
-        if (curve[k].open) nh_json_add_text(undecided, words);
-    }
-    return undecided;
-}
-
-/* ---- one parameter ---- */
 
 static void put_degrees(const nh_classified *x, nh_json *to)
 {
     nh_json *list = nh_json_put_array(to, "degrees");
-    for (size_t d = 1; d <= of(x)->rows; d++) {
-        const nh_classify_row *row = &of(x)->row[d - 1];
+    for (size_t d = 1; d <= x->classification->rows; d++) {
+        const nh_classify_row *row = &x->classification->row[d - 1];
         nh_json *item = nh_json_add_object(list);
         nh_json_put_number(item, "degree", (double)d);
         put_number(item, "almost_all", &row->number);
         nh_json_put_number(item, "known", row->known == SIZE_MAX ? NAN : (double)row->known);
-        nh_json_put_bool(item, "exact", exact(row));
+        nh_json_put_bool(item, "exact", nh_classification_is_exact(row));
         nh_json_put_number(item, "unknowns", (double)row->unknowns);
+        if (x->parameters > 1) nh_json_put_number(item, "determinant", (double)row->size);
         nh_json_put_bool(item, "lifted", row->lifted);
-        nh_json_put_number(item, "examined", (double)row->roots);
+        if (x->parameters == 1) nh_json_put_number(item, "examined", (double)row->roots);
         put_primes(item, row->primes, row->prime);
-        nh_json_put_number(item, "excluded_height", row->lifted ? row->height : NAN);
-        nh_json_put_bool(item, "excluded_everywhere", row->theorem);
-        nh_json_put_number(item, "primes_for_everywhere", row->bits > 0 ? (double)row->theorem_primes : NAN);
-        put_number(item, "infinity", &row->infinite);
+        bool known = x->parameters == 3 ? row->swept > 0 : row->lifted;
+        nh_json_put_number(item, "excluded_height", known ? row->height : NAN);
+        if (x->parameters == 1) put_value_row(row, item);
+        if (x->parameters == 2) nh_json_put_number(item, "lines", (double)row->swept);
+        if (x->parameters == 3) nh_json_put_number(item, "sections", (double)row->sections);
+        if (x->parameters == 3) nh_json_put_number(item, "planes", (double)row->swept);
     }
 }
 
-/* {"eps": "1/3"}, or an equation as text. */
-static void put_where(const nh_classified *x, const nh_classify_value *v, nh_json *item)
+/* ---- places ---- */
+
+/* {"B": "1", "eps": "1/3"}, or an equation as text. */
+static void put_where(const nh_classified *x, const nh_classified_place *at, nh_json *item)
 {
-    int64_t top, bottom;
-    char ratio[60];
-    if (!nh_classified_rational(&v->polynomial, &top, &bottom)) {
-        nh_json_put_text(item, "where", nh_classified_words(x, &v->polynomial));
+    if (at->dimension || (x->parameters == 1 && !isfinite(at->about[0]))) {
+        nh_json_put_text(item, "where", at->where);
         return;
     }
-    snprintf(ratio, sizeof ratio, bottom == 1 ? "%" PRId64 : "%" PRId64 "/%" PRId64, top, bottom);
-    nh_json_put_text(nh_json_put_object(item, "where"), x->over, ratio);
+    nh_json *where = nh_json_put_object(item, "where");
+    for (size_t v = x->parameters; v-- > 0;) nh_json_put_text(where, x->over[v], at->value[v]);
 }
 
-static void put_special(const nh_classified *x, size_t index, nh_json *list)
+/* The polynomial of a value, and its real roots. */
+static void put_polynomial(const nh_special_factor *s, nh_json *item)
 {
-    const nh_classify_value *v = &of(x)->value[index];
-    const nh_classified_value *at = &x->value[index];
+    static const double none[NH_MOST_PARAMETERS] = {0};
     char text[60];
-    nh_json *item = nh_json_add_object(list);
-    put_where(x, v, item);
     nh_json *coefficients = nh_json_put_array(item, "polynomial");
-    for (size_t j = 0; j <= v->polynomial.degree; j++) {
-        snprintf(text, sizeof text, "%" PRId64, v->polynomial.coefficient[j]);
+    for (size_t j = 0; j <= s->degree[0]; j++) {
+        snprintf(text, sizeof text, "%" PRId64, s->coefficient[j]);
         nh_json_add_text(coefficients, text);
     }
-    double *root = nh_alloc_array(v->polynomial.degree + 1, sizeof *root);
-    nh_json_put_numbers(item, "real_values", nh_special_reals(&v->polynomial, root), root, 1);
+    double *root = nh_alloc_array(s->degree[0] + 1, sizeof *root);
+    nh_json_put_numbers(item, "real_values", nh_special_reals(s, 0, none, root), root, 1);
     nh_free(root);
-    nh_json_put_number(item, "from_degree", (double)v->first);
-    nh_json_put_number(item, "dimension", (double)v->number[of(x)->rows].bound);
-    put_here(item, of(x)->rows, v->number);
-    nh_json_put_bool(item, "proved", (at->result || at->shown) && at->complete >= v->first);
-    nh_json_put_text(item, "shown", at->shown);
-    nh_json_put_text(item, "not_constructed_because", at->why);
-    nh_classification_put_currents(at->result, 0, NULL, item);
 }
 
-/* Values at which the equations are singular, and values at which the number was not decided. */
-static bool put_others(const nh_classified *x, nh_json *root)
+static void put_place(const nh_classified *x, const nh_classified_place *at, nh_json *list)
 {
-    bool open = false;
+    const nh_classified_finding *f = &at->finding;
+    size_t rows = x->classification->rows;
+    nh_json *item = nh_json_add_object(list);
+    put_where(x, at, item);
+    if (x->parameters == 1) put_polynomial(&at->zeros.equation[0], item);
+    else nh_json_put_text(item, "on", at->on ? nh_classified_equation(x, at->on) : NULL);
+    nh_json_put_number(item, "from_degree", (double)at->first);
+    nh_json_put_number(item, "dimension", (double)at->number[rows].bound);
+    put_here(item, rows, at->number);
+    nh_json_put_bool(item, "proved", (f->result || f->shown) && f->complete >= at->first);
+    if (x->parameters == 1) nh_json_put_text(item, "shown", f->shown);
+    nh_json_put_text(item, "not_constructed_because", f->why);
+    put_currents(f->result, f->count, f->index, item);
+}
+
+/* What is singular, and what was not decided or not examined. */
+static void put_open(const nh_classified *x, nh_json *root)
+{
+    const nh_classification *c = x->classification;
     nh_json *degenerate = nh_json_put_array(root, "degenerate"), *undecided = nh_json_put_array(root, "undecided");
-    for (size_t k = 0; k < of(x)->values; k++) {
-        const nh_classify_value *v = &of(x)->value[k];
-        if (v->degenerate) nh_json_add_text(degenerate, nh_classified_words(x, &v->polynomial));
-        if (v->open) nh_json_add_text(undecided, nh_classified_words(x, &v->polynomial));
-        open |= v->open > 0;
+    for (size_t k = 0; k < c->specials; k++) {
+        const char *words = nh_classification_zeros(x, &c->special[k].polynomial);
+        if (c->special[k].degenerate) nh_json_add_text(degenerate, words);
+        if (c->special[k].open) nh_json_add_text(undecided, words);
     }
-    return open;
+    for (size_t k = 0; k < c->walls; k++)
+        if (nh_classification_is_unexamined(x, &c->wall[k]))
+            nh_json_add_text(undecided, nh_classified_words(x, &c->wall[k].polynomial));
+    for (size_t k = 0; k < x->parts && x->parameters == 3; k++)
+        if (!x->part[k].within && (!x->part[k].special || !x->part[k].special->degenerate))
+            nh_json_add_text(undecided, nh_classified_equation(x, x->part[k].polynomial));
 }
 
 char *nh_classification_json(const nh_classified *x, const nh_run *run)
 {
+    const nh_classification *c = x->classification;
     nh_json *root = nh_json_object();
-    bool all = of(x)->rows == (x->question ? x->question->family.levels : x->degree);
     put_head(x, root);
-    nh_json_put_text(root, "obstacle", of(x)->obstacle);
-    nh_json_put_text(root, "ended_by", of(x)->end);
-    nh_json_put_bool(root, "limit", of(x)->limit);
-    nh_json_put_number(root, "generic", of(x)->rows ? (double)of(x)->row[of(x)->rows - 1].number.bound : NAN);
-    nh_classification_put_currents(x->almost_all, x->known, x->currents, root);
+    nh_json_put_text(root, "obstacle", c->obstacle);
+    nh_json_put_text(root, "ended_by", c->end);
+    if (x->parameters == 1) nh_json_put_bool(root, "limit", c->limit);
+    nh_json_put_number(root, "generic", c->rows ? (double)c->row[c->rows - 1].number.bound : NAN);
+    put_currents(x->almost_all, x->known, x->currents, root);
     put_degrees(x, root);
     nh_json *list = nh_json_put_array(root, "special");
-    for (size_t k = 0; k < of(x)->values; k++)
-        if (special(&of(x)->value[k])) put_special(x, k, list);
-    all &= !put_others(x, root);
-    for (size_t d = 0; d < of(x)->rows; d++) all &= of(x)->row[d].lifted && exact(&of(x)->row[d]);
-    nh_json_put_bool(root, "nowhere_else", all);
+    for (size_t k = 0; k < x->places; k++) put_place(x, &x->place[k], list);
+    put_open(x, root);
+    nh_json_put_bool(root, "nowhere_else", nh_classification_is_closed(x));
     nh_json_put_bool(root, "partial", x->partial);
     nh_run_json(run, x->almost_all->system, root);
     return nh_json_finish(root);

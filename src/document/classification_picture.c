@@ -1,51 +1,86 @@
-/* The plane of two parameters as a plot: special curves, and points with more integrals than the curves. */
+/* The plane of two parameters as a plot, and slices of the space of three, planes of lambda and mu at values of nu:
+ * special curves and surfaces, and points with more integrals. */
 #include <math.h>
 #include <string.h>
 
 #include "document/classification_internal.h"
 
-enum { steps = 401 };
-
-typedef nh_classified_plane plane;
+enum { steps = 401, most_slices = 3, most_crossings = 16 };
 
 typedef struct {
+    const nh_classified *of;
     nh_arena *arena;
+    double nu; /* of three parameters; otherwise 0 */
     size_t count, capacity;
     nh_curve *curve;
     double low[2], high[2]; /* ranges of lambda and mu */
 } drawing;
 
-/* ---- the window ---- */
+/* ---- what lies in the slice ---- */
 
-static void see(drawing *d, int v, double value)
+/* The index-th place, where it has this dimension and a point of dimension 0 lies in the slice. */
+static const nh_classified_place *place_of(const drawing *d, size_t index, size_t dimension)
 {
-    if (!isfinite(value)) return;
-    if (value < d->low[v]) d->low[v] = value;
-    if (value > d->high[v]) d->high[v] = value;
+    const nh_classified_place *p = &d->of->place[index];
+    bool there = dimension || d->of->parameters == 2 || p->about[2] == d->nu;
+    return p->dimension == dimension && there ? p : NULL;
 }
 
-/* Contains all points, the value at which the family was analysed, and zero; and the points of curves over the middle
- * of that. */
-static void window(drawing *d, const plane *x)
+/* Where a curve of three parameters meets the slice; returns the number of points. */
+static size_t crossings(const drawing *d, const nh_classified_place *p, double (*out)[2])
 {
-    for (int v = 0; v < 2; v++) d->low[v] = 0, d->high[v] = 0;
-    const nh_analysis *r = x->family->almost_all;
-    for (size_t i = 0; i < r->system->parameters; i++)
-        for (int v = 0; v < 2; v++)
-            if (r->system->parameter[i].name && !strcmp(r->system->parameter[i].name, x->over[v]))
-                see(d, v, r->system->parameter[i].value);
-    for (size_t k = 0; k < x->points; k++)
-        for (int v = 0; v < 2; v++) see(d, v, x->point[k].about[v]);
-    for (size_t k = 0; k < x->plane->curves; k++) {
-        const nh_special_curve *c = &x->plane->curve[k].polynomial;
-        double *root = nh_alloc_array(c->degree[0] + c->degree[1] + 1, sizeof *root), middle[2];
-        for (int v = 0; v < 2; v++) middle[v] = (d->low[v] + d->high[v]) / 2;
-        for (int fixed = 0; fixed < 2 && x->plane->curve[k].first; fixed++) {
-            size_t roots = nh_special_curve_reals(c, fixed, middle[fixed], root);
-            for (size_t i = 0; i < roots; i++) see(d, 1 - fixed, root[i]);
-        }
+    int v = p->zeros.gives[0], other = 1 - v;
+    if (v == 2 || p->zeros.equation[1].degree[other] == 0) return 0;
+    double *root = nh_alloc_array(p->zeros.equation[1].degree[other] + 1, sizeof *root), at[3] = {0, 0, d->nu}, last[2];
+    size_t count = 0, roots = nh_special_reals(&p->zeros.equation[1], other, at, root);
+    for (size_t i = 0; i < roots && count < most_crossings; i++) {
+        at[other] = root[i];
+        if (nh_special_reals(&p->zeros.equation[0], v, at, last) != 1) continue;
+        at[v] = last[0];
+        memcpy(out[count++], at, sizeof *out);
+    }
+    nh_free(root);
+    return count;
+}
+
+/* ---- the window ---- */
+
+static void widen(drawing *d, int v, double value)
+{
+    if (!isfinite(value)) return;
+    d->low[v] = fmin(d->low[v], value);
+    d->high[v] = fmax(d->high[v], value);
+}
+
+/* The real zeros over the middle of the window, in both directions. */
+static void widen_by_zeros(drawing *d, const nh_special_factor *s)
+{
+    double middle[3] = {(d->low[0] + d->high[0]) / 2, (d->low[1] + d->high[1]) / 2, d->nu};
+    for (int v = 1; v >= 0; v--) {
+        double *root = nh_alloc_array(s->degree[v] + 1, sizeof *root);
+        size_t roots = nh_special_reals(s, v, middle, root);
+        for (size_t i = 0; i < roots; i++) widen(d, v, root[i]);
         nh_free(root);
     }
+}
+
+/* Contains zero, the values at which the family was analysed, all points, and curves over the middle of these. */
+static void choose_window(drawing *d)
+{
+    const nh_classified *x = d->of;
+    const nh_system *s = x->almost_all->system;
+    double at[most_crossings][2];
+    for (size_t i = 0; i < s->parameters; i++)
+        for (int v = 0; v < 2; v++)
+            if (s->parameter[i].name && !strcmp(s->parameter[i].name, x->over[v])) widen(d, v, s->parameter[i].value);
+    for (size_t k = 0; k < x->places && x->parameters == 3; k++) {
+        size_t count = place_of(d, k, 1) ? crossings(d, &x->place[k], at) : 0;
+        for (size_t i = 0; i < 2 * count; i++) widen(d, (int)(i % 2), at[i / 2][i % 2]);
+    }
+    for (size_t k = 0; k < x->places; k++)
+        for (int v = 0; v < 2 && place_of(d, k, 0); v++) widen(d, v, x->place[k].about[v]);
+    for (size_t k = 0; k < x->classification->specials; k++)
+        if (x->classification->special[k].first) widen_by_zeros(d, &x->classification->special[k].polynomial);
     for (int v = 0; v < 2; v++) {
         double span = d->high[v] > d->low[v] ? d->high[v] - d->low[v] : 1;
         d->low[v] -= 0.1 * span;
@@ -55,83 +90,100 @@ static void window(drawing *d, const plane *x)
 
 /* ---- curves and points ---- */
 
-static nh_curve *new_curve(drawing *d, const char *name, size_t count, double **x, double **y)
+static nh_curve *new_curve(drawing *d, const char *name, size_t count, double *to[2])
 {
     nh_grow(&d->curve, &d->capacity, d->count + 1, sizeof *d->curve);
-    *x = nh_arena_alloc(d->arena, (count + 1) * sizeof **x);
-    *y = nh_arena_alloc(d->arena, (count + 1) * sizeof **y);
-    d->curve[d->count] = (nh_curve){.name = name, .count = count, .x = *x, .y = *y, .x_stride = 1, .y_stride = 1};
+    for (int v = 0; v < 2; v++) to[v] = nh_arena_alloc(d->arena, (count + 1) * sizeof **to);
+    d->curve[d->count] = (nh_curve){.name = name, .count = count, .x = to[1], .y = to[0], .x_stride = 1, .y_stride = 1};
     return &d->curve[d->count++];
 }
 
-/* Branch after branch with gaps between them; lambda over mu, or mu over lambda for a vertical line. */
-static void draw_curve(drawing *d, const plane *x, size_t index, const char *name)
+/* Branch after branch with gaps between them; lambda over mu, or mu over lambda where lambda does not occur. */
+static void draw_zeros(drawing *d, const nh_special_factor *s, const char *name)
 {
-    const nh_special_curve *c = &x->plane->curve[index].polynomial;
-    int fixed = c->degree[0] > 0; /* mu is the variable */
-    size_t branches = c->degree[1 - fixed];
-    double *to[2], *root = nh_alloc_array(branches + 1, sizeof *root);
-    new_curve(d, name, branches * (steps + 1), &to[1], &to[0]);
+    int v = s->degree[0] ? 0 : 1;
+    size_t branches = s->degree[v];
+    double *to[2], *root = nh_alloc_array(branches + 1, sizeof *root), at[3] = {0, 0, d->nu};
+    if (branches) new_curve(d, name, branches * (steps + 1), to);
     for (size_t b = 0; b < branches; b++)
         for (size_t k = 0; k <= steps; k++) {
-            double value = d->low[fixed] + (d->high[fixed] - d->low[fixed]) * (double)k / (steps - 1);
-            size_t roots = k < steps ? nh_special_curve_reals(c, fixed, value, root) : 0, at = b * (steps + 1) + k;
-            bool inside = b < roots && root[b] >= d->low[1 - fixed] && root[b] <= d->high[1 - fixed];
-            to[fixed][at] = inside ? value : NAN;
-            to[1 - fixed][at] = inside ? root[b] : NAN;
+            at[1 - v] = d->low[1 - v] + (d->high[1 - v] - d->low[1 - v]) * (double)k / (steps - 1);
+            size_t roots = k < steps ? nh_special_reals(s, v, at, root) : 0, i = b * (steps + 1) + k;
+            bool inside = b < roots && root[b] >= d->low[v] && root[b] <= d->high[v];
+            to[1 - v][i] = inside ? at[1 - v] : NAN;
+            to[v][i] = inside ? root[b] : NAN;
         }
     nh_free(root);
 }
 
-/* The points with so many integrals. */
-static void draw_points(drawing *d, const plane *x, size_t number, const char *name)
+/* A curve of three parameters: its points in the slice, or the curve where it lies in it. */
+static void draw_curve(drawing *d, const nh_classified_place *p, const char *name)
 {
-    double *mu, *lambda;
-    size_t rows = x->plane->rows, count = 0;
-    nh_curve *c = new_curve(d, name, x->points, &mu, &lambda);
-    for (size_t k = 0; k < x->points; k++) {
-        const nh_classified_point *p = &x->point[k];
-        if (!p->rational || p->number[rows].bound != number) continue;
-        mu[count] = p->about[1];
-        lambda[count++] = p->about[0];
-    }
-    c->count = count;
-    c->dots = true;
+    double at[most_crossings][2], *to[2];
+    size_t count = crossings(d, p, at);
+    if (count) new_curve(d, name, count, to)->dots = true;
+    for (size_t k = 0; k < 2 * count; k++) to[k % 2][k / 2] = at[k / 2][k % 2];
+    int64_t top, bottom;
+    if (p->zeros.gives[0] == 2 && nh_special_rational(&p->zeros.equation[0], &top, &bottom) &&
+        (double)top / (double)bottom == d->nu)
+        draw_zeros(d, &p->zeros.equation[1], name);
 }
 
-static void all_points(drawing *d, const plane *x)
+/* The points by their numbers of integrals, in ascending order. */
+static void draw_points(drawing *d)
 {
-    size_t rows = x->plane->rows, last = 0;
-    for (size_t next = 0; next != SIZE_MAX; last = next) { /* in ascending order */
+    const nh_classified *x = d->of;
+    size_t rows = x->classification->rows, last = 0;
+    for (size_t next = 0; next != SIZE_MAX; last = next) {
+        double *to[2];
+        size_t count = 0;
         next = SIZE_MAX;
-        for (size_t k = 0; k < x->points; k++) {
-            size_t n = x->point[k].number[rows].bound;
-            if (x->point[k].rational && n > last && n < next) next = n;
+        for (size_t k = 0; k < x->places; k++) {
+            const nh_classified_place *p = place_of(d, k, 0);
+            if (!p || !isfinite(p->about[0]) || !isfinite(p->about[1])) continue;
+            size_t n = p->number[rows].bound;
+            if (n > last && n < next) next = n;
         }
-        if (next != SIZE_MAX) draw_points(d, x, next, nh_arena_printf(d->arena, "points with %zu", next));
+        if (next == SIZE_MAX) return;
+        nh_curve *c = new_curve(d, nh_arena_printf(d->arena, "points with %zu", next), x->places, to);
+        for (size_t k = 0; k < x->places; k++) {
+            const nh_classified_place *p = place_of(d, k, 0);
+            if (!p || !isfinite(p->about[0]) || !isfinite(p->about[1]) || p->number[rows].bound != next) continue;
+            for (int v = 0; v < 2; v++) to[v][count] = p->about[v];
+            count++;
+        }
+        c->count = count;
+        c->dots = true;
     }
 }
 
-void nh_classification_picture(const plane *x, nh_pen *pen)
+static void draw_plane(const nh_classified *x, double nu, nh_pen *pen)
 {
-    drawing d = {.arena = x->family->arena};
-    size_t rows = x->plane->rows;
-    if (!rows) return;
-    window(&d, x);
-    for (size_t k = 0; k < x->plane->curves; k++) {
-        const nh_plane_curve *c = &x->plane->curve[k];
-        if (!c->first && !c->degenerate) continue;
-        const char *words = nh_classified_surface_words(x->family, &c->polynomial);
-        draw_curve(&d, x, k,
-                   c->degenerate ? nh_arena_printf(d.arena, "%s: degenerate", words)
-                                 : nh_arena_printf(d.arena, "%s: %zu", words, c->number[rows].bound));
+    drawing d = {.of = x, .arena = x->arena, .nu = nu};
+    const nh_classification *c = x->classification;
+    char digits[32] = "";
+    choose_window(&d);
+    for (size_t k = 0; k < c->specials; k++) {
+        const nh_classify_special *s = &c->special[k];
+        if (!s->first && !s->degenerate) continue;
+        const char *words = nh_classified_equation(x, &s->polynomial);
+        draw_zeros(&d, &s->polynomial,
+                   s->degenerate ? nh_arena_printf(d.arena, "%s: degenerate", words)
+                                 : nh_arena_printf(d.arena, "%s: %zu", words, s->number[c->rows].bound));
     }
-    all_points(&d, x);
+    for (size_t k = 0; k < x->places && x->parameters == 3; k++) {
+        const nh_classified_place *p = place_of(&d, k, 1);
+        if (p) draw_curve(&d, p, nh_arena_printf(d.arena, "%s: %zu", p->where, p->number[c->rows].bound));
+    }
+    draw_points(&d);
+    if (x->parameters == 3) nh_text_number(nu, digits, sizeof digits);
+    const char *slice = *digits ? nh_arena_printf(d.arena, "%s = %s", x->over[2], digits) : NULL;
     const char *only = d.count == 1 ? d.curve[0].name : NULL; /* the plot has no legend */
-    const char *caption =
-        nh_arena_printf(d.arena, "Numbers of integrals of degree %zu, with the constant 1%s%s; elsewhere %zu.", rows,
-                        only ? ": " : "", only ? only : "", x->plane->row[rows - 1].number.bound);
-    nh_plot plot = {.title = "Where there are more conservation laws",
+    const char *caption = nh_arena_printf(
+        d.arena, "%s%sNumbers of integrals of degree %zu, with the constant 1%s%s; elsewhere %zu.", slice ? slice : "",
+        slice ? ". " : "", c->rows, only ? ": " : "", only ? only : "", c->row[c->rows - 1].number.bound);
+    nh_plot plot = {.title = slice ? nh_arena_printf(d.arena, "Where there are more, %s", slice)
+                                   : "Where there are more conservation laws",
                     .description = caption,
                     .x_label = x->over[1],
                     .y_label = x->over[0],
@@ -139,4 +191,39 @@ void nh_classification_picture(const plane *x, nh_pen *pen)
                     .curve = d.curve};
     if (d.count) pen->ink->plot(pen->to, &plot, caption);
     nh_free(d.curve);
+}
+
+/* ---- slices ---- */
+
+static void add_slice(double *nu, size_t *count, double value)
+{
+    for (size_t k = 0; k < *count; k++)
+        if (nu[k] == value) return;
+    if (*count < most_slices && isfinite(value)) nu[(*count)++] = value;
+}
+
+/* Of three parameters: planes that contain something special; then planes on both sides of the file's value. */
+void nh_classification_picture(const nh_classified *x, nh_pen *pen)
+{
+    double nu[most_slices] = {0}, own = 1;
+    size_t count = x->parameters == 2;
+    const nh_system *s = x->almost_all->system;
+    if (!x->classification->rows) return;
+    if (x->parameters == 3) {
+        for (size_t i = 0; i < s->parameters; i++)
+            if (!strcmp(s->parameter[i].name, x->over[2])) own = s->parameter[i].value;
+        own = own == 0 ? 1 : round(own * 100) / 100;
+        add_slice(nu, &count, own);
+        for (size_t k = 0; k < x->places; k++)
+            if (!x->place[k].dimension) add_slice(nu, &count, x->place[k].about[2]);
+        for (size_t k = 0; k < x->classification->walls; k++) {
+            int64_t top, bottom;
+            const nh_special_factor *wall = &x->classification->wall[k].polynomial;
+            if (nh_special_variable(wall, 0) == 2 && nh_special_rational(wall, &top, &bottom))
+                add_slice(nu, &count, (double)top / (double)bottom);
+        }
+        add_slice(nu, &count, 2 * own);
+        add_slice(nu, &count, -own);
+    }
+    for (size_t k = 0; k < count; k++) draw_plane(x, nu[k], pen);
 }

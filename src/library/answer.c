@@ -197,21 +197,17 @@ const nh_answer_kind nh_answer_verify = {.name = "verify",
 /* "eps", "B, eps" or "A, B, eps" */
 static bool read_names(const nh_request *q, nh_classify_request *out, nh_error *error)
 {
-    const char *name[4] = {NULL};
     size_t count = 0;
     for (const char *at = q->over; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
         at += strspn(at, " ");
         size_t length = strcspn(at, ", ");
         if (length == 0) return nh_fail(error, NH_USAGE, "", "--over `%s` lacks the name of a parameter", q->over);
-        if (count < 4) name[count++] = nh_arena_strndup(q->arena, at, length);
+        if (count == NH_MOST_PARAMETERS) {
+            nh_fail(error, NH_USAGE, "", "--over `%s` names more than three parameters", q->over);
+            return nh_error_hint(error, "give the others values with --set");
+        }
+        out->over[count++] = nh_arena_strndup(q->arena, at, length);
     }
-    if (count > 3) {
-        nh_fail(error, NH_USAGE, "", "--over `%s` names more than three parameters", q->over);
-        return nh_error_hint(error, "give the others values with --set");
-    }
-    out->over = name[0];
-    out->second = count > 1 ? name[1] : NULL;
-    out->third = count > 2 ? name[2] : NULL;
     return true;
 }
 
@@ -226,10 +222,10 @@ static bool read_question(const nh_request *q, nh_classify_request *out, nh_erro
     size_t of = 0;
     while (q->of && of < NH_LINEAR_QUESTIONS && strcmp(q->of, names[of])) of++;
     out->of = (nh_linear_question)of;
-    if (of < NH_LINEAR_QUESTIONS && (of == NH_OF_CURRENTS || !out->second)) return true;
+    if (of < NH_LINEAR_QUESTIONS && (of == NH_OF_CURRENTS || !out->over[1])) return true;
     if (of < NH_LINEAR_QUESTIONS) {
-        nh_fail(error, NH_USAGE, "", "--of %s takes one parameter, not %s", q->of, out->third ? "three" : "two");
-        return nh_error_hint(error, "give the other%s with --set", out->third ? "s values" : " a value");
+        nh_fail(error, NH_USAGE, "", "--of %s takes one parameter, not %s", q->of, out->over[2] ? "three" : "two");
+        return nh_error_hint(error, "give the other%s with --set", out->over[2] ? "s values" : " a value");
     }
     nh_fail(error, NH_USAGE, "", "--of does not know `%s`", q->of);
     return nh_error_hint_near(error, q->of, names, NH_LINEAR_QUESTIONS,
@@ -253,46 +249,28 @@ static bool classify_check(const nh_request *q, nh_error *error)
     return read_classify(q, &ignored, error);
 }
 
-/* One of the parts: over a line, a plane, a space. */
 static bool classified_create(nh_answer *a, nh_error *error)
 {
     nh_classify_request request;
     if (!read_classify(a->request, &request, error)) return false;
-    if (request.third) a->part[2] = nh_classify_space_system(&request, error);
-    else if (request.second) a->part[1] = nh_classify_plane_system(&request, error);
-    else a->part[0] = nh_classify_system(&request, error);
-    return a->part[0] || a->part[1] || a->part[2];
+    a->part[0] = nh_classify_system(&request, error);
+    return a->part[0];
 }
 
-static void classified_free(nh_answer *a)
-{
-    if (a->part[0]) nh_classified_free(a->part[0]);
-    if (a->part[1]) nh_classified_plane_free(a->part[1]);
-    if (a->part[2]) nh_classified_space_free(a->part[2]);
-}
+static void classified_free(nh_answer *a) { nh_classified_free(a->part[0]); }
 
 static void classified_write(const nh_answer *a, nh_pen_style style, nh_text *out)
 {
-    nh_classification_write(a->part[0], a->part[1], a->part[2], &a->run, style, out);
+    nh_classification_write(a->part[0], &a->run, style, out);
 }
 
-static char *classified_json(const nh_answer *a)
-{
-    return a->part[2]   ? nh_classification_space_json(a->part[2], &a->run)
-           : a->part[1] ? nh_classification_plane_json(a->part[1], &a->run)
-                        : nh_classification_json(a->part[0], &a->run);
-}
+static char *classified_json(const nh_answer *a) { return nh_classification_json(a->part[0], &a->run); }
 
 static int classified_code(const nh_answer *a, nh_error *error)
 {
-    const nh_classified *line = a->part[0];
-    const nh_classified_plane *plane = a->part[1];
-    const nh_classified_space *space = a->part[2];
-    const char *obstacle = line    ? line->classification->obstacle
-                           : plane ? plane->plane->obstacle
-                                   : space->space->obstacle;
-    if (obstacle) nh_fail(error, NH_NUMERIC, "", "%s", obstacle);
-    return nh_answer_code(line ? line->partial : plane ? plane->partial : space->partial, error);
+    const nh_classified *x = a->part[0];
+    if (x->classification->obstacle) nh_fail(error, NH_NUMERIC, "", "%s", x->classification->obstacle);
+    return nh_answer_code(x->partial, error);
 }
 
 const nh_answer_kind nh_answer_classify = {.name = "classify",

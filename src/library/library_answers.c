@@ -90,8 +90,6 @@ nh_classified *nh_classify_over(nh_problem *p, const char *parameter, bool shape
     NH_OWN_ERROR(error);
     nh_request q = p->request;
     nh_error_clear(error);
-    if (strchr(parameter, ',')) /* several systems have an answer of another kind */
-        return nh_fail(error, NH_USAGE, "", "over: expected the name of one parameter, found `%s`", parameter), NULL;
     q.over = parameter;
     q.shape = shape;
     return result_of(p, "classify", &q, NULL, error);
