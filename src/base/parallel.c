@@ -104,7 +104,7 @@ size_t nh_threads(double wanted)
     return sched_getaffinity(0, sizeof mine, &mine) ? 1 : (size_t)CPU_COUNT(&mine);
 }
 
-/* ---- one job beside the caller ---- */
+/* ---- a job in a thread of its own, while the caller goes on ---- */
 
 struct nh_aside {
     nh_undo undo; /* first */

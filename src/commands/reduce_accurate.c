@@ -15,8 +15,8 @@ enum { most_attempts = 4 };
 /* parts of the requested accuracy: for the full motion; for the tolerance of the check */
 static const double share = 0.25, finer = 0.03, tightest = 1e-14;
 
-/* A run by the method and equations of another one, with a tolerance so many times as large, or with steps whose error
- * is so many times as large. */
+/* Repeats the motion t with its method and equations.  The tolerance is `part` times as large; where the step is fixed,
+ * the error of a step is. */
 static nh_trajectory *once_more(const nh_trajectory_request *request, const nh_trajectory *t, const nh_accuracy *a,
                                 double part)
 {

@@ -463,18 +463,28 @@ static void furthers(const screen *x)
     say(x, 0, &words);
 }
 
+static void warnings(const screen *x, size_t from, size_t to)
+{
+    for (size_t i = from; i < to; i++)
+        nh_screen_paragraph(0, 2, nh_arena_printf(x->r->arena, "Warning: %s", x->r->warning[i]), x->out);
+}
+
 static void write(screen *x)
 {
     enum { tail = 3 };
     const nh_analysis *r = x->r;
+    /* what was noted when the file was read: the answer may be that of another system than was meant */
+    size_t notes = 0;
+    while (notes < r->system->notes && notes < r->warnings && !strcmp(r->warning[notes], r->system->note[notes]))
+        notes++;
     headline(x);
+    warnings(x, 0, notes);
     quantities(x);
     nh_text_add(x->out, "\n");
     completeness(x);
     furthers(x);
     motion(x);
-    for (size_t i = 0; i < r->warnings; i++)
-        nh_screen_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), x->out);
+    warnings(x, notes, r->warnings);
     size_t n = nh_screen_count(nh_text_string(x->out)) + tail + 1;
     equations(x, n < NH_SCREEN_LINES ? NH_SCREEN_LINES - n : 0);
     more(x);

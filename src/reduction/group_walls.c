@@ -59,7 +59,8 @@ static void close_walls(walls *w)
     nh_free(w->value);
 }
 
-/* From q along the gradient, in units of the coordinates, to wall i; the gradient there stands in `value`. */
+/* Newton steps from q to wall number i, along the gradient of its function in units of the coordinates.  `value` then
+ * has the function and its gradient there. */
 static bool go_to(walls *w, size_t i, const double *unit, double *q)
 {
     static const double near = 1e-12;

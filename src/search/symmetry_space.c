@@ -274,7 +274,7 @@ static void make_basis(const space *x, nh_symmetry_space *out)
 
 typedef struct {
     size_t n, width;
-    const nh_ex *field;                            /* those beside Gamma */
+    const nh_ex *field;                            /* the fields, without Gamma */
     nh_ex phi[most_products], name[most_products]; /* independent currents that they annihilate */
     size_t count;
 } candidates;
