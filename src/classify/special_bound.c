@@ -122,14 +122,14 @@ static bool add_component(bound *b, nh_forms *forms, nh_arena *arena, nh_ex e, b
 static bool read(bound *b)
 {
     const nh_jet_equations *x = b->x;
-    const nh_model *o = x->model;
+    const nh_model *model = x->model;
     nh_arena *arena = nh_arena_create();
     nh_forms forms;
     bool good = x->coordinates <= most_variables && x->n <= most_variables && !x->time;
     nh_forms_init(&forms, b->dag, false, most_terms);
     for (size_t j = 0; j < b->family->kept && good; j++)
-        good = add_component(b, &forms, arena, o->rho[b->family->index[j]], true, b->family->index[j]);
-    for (size_t l = 0; l < x->n && good; l++) good = add_component(b, &forms, arena, o->a[l], false, l);
+        good = add_component(b, &forms, arena, model->rho[b->family->index[j]], true, b->family->index[j]);
+    for (size_t l = 0; l < x->n && good; l++) good = add_component(b, &forms, arena, model->a[l], false, l);
     nh_forms_clear(&forms);
     nh_arena_free(arena);
     for (size_t i = 0; i < b->terms; i++) {

@@ -13,47 +13,50 @@
 enum { points_of_rank = 24, digits_of_a_number = 6 };
 
 /* Is it a function of the currents found, or constant? */
-static nh_independence beside_the_found(const nh_analysis *r, nh_ex phi)
+static nh_independence beside_the_found(const nh_analysis *result, nh_ex phi)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_points *points = nh_points_create(r->model, points_of_rank, 1, (uint64_t)r->options.seed + 202, &ignored);
+    nh_points *points =
+        nh_points_create(result->model, points_of_rank, 1, (uint64_t)result->options.seed + 202, &ignored);
     if (!points) return NH_DOUBTFUL;
-    nh_independence out = nh_currents_beside(r, points, phi, true, r->options.doubt);
+    nh_independence out = nh_currents_beside(result, points, phi, true, result->options.doubt);
     nh_points_free(points);
     return out;
 }
 
 /* The state, "x = 1, y = 2". */
-static const char *state_in_words(const nh_analysis *r, const double *z)
+static const char *state_in_words(const nh_analysis *result, const double *z)
 {
     nh_text text;
     nh_text_init(&text);
-    for (size_t j = 0; j < r->model->width; j++)
-        nh_text_addf(&text, "%s%s = %.6g", j ? ", " : "", nh_name_of(r->model->dag, r->model->chart->symbol[j]), z[j]);
-    const char *out = nh_arena_strdup(r->arena, nh_text_string(&text));
+    for (size_t j = 0; j < result->model->width; j++)
+        nh_text_addf(&text, "%s%s = %.6g", j ? ", " : "",
+                     nh_name_of(result->model->dag, result->model->chart->symbol[j]), z[j]);
+    const char *out = nh_arena_strdup(result->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
 }
 
-static void refute(nh_analysis *r, nh_stated *s, const nh_verification *v)
+static void refute(nh_analysis *result, nh_stated *s, const nh_verification *v)
 {
     s->verdict = NH_STATED_FALSE;
     s->state = v->has_counterexample ? v->counterexample : NULL;
     s->rate = v->rate;
     if (s->denied) return;
     bool rounded = v->proof.digits >= digits_of_a_number;
-    nh_analysis_warn(r, "the system file calls `%s` a current: it is none%s%s%s%s", s->name,
-                     s->state ? nh_arena_printf(r->arena, ", its rate is %.6g in the state ", s->rate) : "",
-                     s->state ? state_in_words(r, s->state) : "", s->state ? "" : ", its rate cancels to few digits",
-                     rounded ? nh_arena_printf(r->arena, "; its rate cancels to %.0f digits: are its numbers rounded?",
-                                               floor(v->proof.digits))
-                             : "");
+    nh_analysis_warn(
+        result, "the system file calls `%s` a current: it is none%s%s%s%s", s->name,
+        s->state ? nh_arena_printf(result->arena, ", its rate is %.6g in the state ", s->rate) : "",
+        s->state ? state_in_words(result, s->state) : "", s->state ? "" : ", its rate cancels to few digits",
+        rounded ? nh_arena_printf(result->arena, "; its rate cancels to %.0f digits: are its numbers rounded?",
+                                  floor(v->proof.digits))
+                : "");
 }
 
-static void confirm(nh_analysis *r, nh_stated *s, const nh_verification *v)
+static void confirm(nh_analysis *result, nh_stated *s, const nh_verification *v)
 {
-    nh_independence kind = beside_the_found(r, v->current);
+    nh_independence kind = beside_the_found(result, v->current);
     s->proved = v->proof.proved;
     s->digits = v->proof.digits;
     s->region = v->region;
@@ -61,38 +64,40 @@ static void confirm(nh_analysis *r, nh_stated *s, const nh_verification *v)
                  : !v->conserved        ? NH_STATED_REGIONAL
                  : kind == NH_DEPENDENT ? NH_STATED_FOUND
                                         : NH_STATED_MISSED;
-    if (s->verdict == NH_STATED_FOUND) s->relation = nh_dependence_on_found(r, s->name, v->current);
+    if (s->verdict == NH_STATED_FOUND) s->relation = nh_dependence_on_found(result, s->name, v->current);
     if (s->denied && v->conserved)
-        nh_analysis_warn(r, "the system file says that `%s` is not conserved: it is%s", s->name,
+        nh_analysis_warn(result, "the system file says that `%s` is not conserved: it is%s", s->name,
                          s->proved ? ", proved" : "");
     else if (s->verdict == NH_STATED_CONSTANT && !s->denied)
-        nh_analysis_warn(r, "the system file calls `%s` a current: it is a constant, whatever the motion is", s->name);
+        nh_analysis_warn(result, "the system file calls `%s` a current: it is a constant, whatever the motion is",
+                         s->name);
 }
 
-static void judge(nh_analysis *r, nh_stated *s, nh_ex value)
+static void judge(nh_analysis *result, nh_stated *s, nh_ex value)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
-    nh_verification v = {.arena = r->arena, .system = r->system, .model = r->model};
+    nh_verification v = {.arena = result->arena, .system = result->system, .model = result->model};
     s->verdict = NH_STATED_OPEN;
-    if (!nh_analysis_file_to_chart(r->model, value, &v.current, &trouble) ||
-        !nh_verification_decide(&v, &r->options, &trouble))
-        s->obstacle = nh_arena_printf(r->arena, "%s", trouble.what);
-    else if (v.conserved || v.region) confirm(r, s, &v);
-    else refute(r, s, &v);
+    if (!nh_analysis_file_to_chart(result->model, value, &v.current, &trouble) ||
+        !nh_verification_decide(&v, &result->options, &trouble))
+        s->obstacle = nh_arena_printf(result->arena, "%s", trouble.what);
+    else if (v.conserved || v.region) confirm(result, s, &v);
+    else refute(result, s, &v);
 }
 
-void nh_analyze_known(nh_analysis *r)
+void nh_analyze_known(nh_analysis *result)
 {
-    const nh_system *y = r->system;
-    r->stated = nh_arena_alloc(r->arena, (y->currents + y->not_conserved + 1) * sizeof *r->stated);
-    for (size_t k = 0; k < y->currents + y->not_conserved && !nh_interrupted(); k++) {
-        const nh_named *it = k < y->currents ? &y->current[k] : &y->trap[k - y->currents];
+    const nh_system *system = result->system;
+    result->stated =
+        nh_arena_alloc(result->arena, (system->currents + system->not_conserved + 1) * sizeof *result->stated);
+    for (size_t k = 0; k < system->currents + system->not_conserved && !nh_interrupted(); k++) {
+        const nh_named *it = k < system->currents ? &system->current[k] : &system->trap[k - system->currents];
         nh_stated s = {.name = it->name[0] ? it->name : it->text,
                        .text = it->text,
                        .out_of_reach = it->out_of_reach,
-                       .denied = k >= y->currents};
-        judge(r, &s, it->value);
-        if (!nh_interrupted()) r->stated[r->stateds++] = s; /* else it is not decided */
+                       .denied = k >= system->currents};
+        judge(result, &s, it->value);
+        if (!nh_interrupted()) result->stated[result->stateds++] = s; /* else it is not decided */
     }
 }

@@ -202,32 +202,32 @@ static void mark_front(nh_benchmark *out)
     }
 }
 
-bool nh_fit_is_wave(const nh_model *o, nh_ex q)
+bool nh_fit_is_wave(const nh_model *model, nh_ex q)
 {
     NH_LIST(call);
-    for (size_t i = 0; i < o->m + o->n; i++) {
-        size_t n = nh_functions_in(o->dag, i < o->m ? o->rho[i] : o->a[i - o->m], &call);
+    for (size_t i = 0; i < model->m + model->n; i++) {
+        size_t n = nh_functions_in(model->dag, i < model->m ? model->rho[i] : model->a[i - model->m], &call);
         for (size_t k = 0; k < n; k++) {
-            nh_function f = nh_function_of(o->dag, call[k]);
-            if ((f == NH_SIN || f == NH_COS || f == NH_TAN) && nh_depends(o->dag, call[k], q)) return true;
+            nh_function f = nh_function_of(model->dag, call[k]);
+            if ((f == NH_SIN || f == NH_COS || f == NH_TAN) && nh_depends(model->dag, call[k], q)) return true;
         }
     }
     return false;
 }
 
-size_t nh_fit_letters(const nh_model *o, nh_ex *out)
+size_t nh_fit_letters(const nh_model *model, nh_ex *out)
 {
     size_t n = 0;
-    for (size_t i = 0; i < o->n; i++) out[n++] = o->chart->w[i];
-    for (size_t s = 0; s < o->m; s++) {
-        nh_ex q = o->system->coordinate[s].q;
+    for (size_t i = 0; i < model->n; i++) out[n++] = model->chart->w[i];
+    for (size_t s = 0; s < model->m; s++) {
+        nh_ex q = model->system->coordinate[s].q;
         bool occurs = false;
-        for (size_t i = 0; i < o->m + o->n && !occurs; i++)
-            occurs = nh_depends(o->dag, i < o->m ? o->rho[i] : o->a[i - o->m], q);
+        for (size_t i = 0; i < model->m + model->n && !occurs; i++)
+            occurs = nh_depends(model->dag, i < model->m ? model->rho[i] : model->a[i - model->m], q);
         if (!occurs) continue;
-        bool wave = nh_fit_is_wave(o, q);
-        if (wave) out[n++] = nh_call(o->dag, NH_SIN, q);
-        out[n++] = wave ? nh_call(o->dag, NH_COS, q) : q;
+        bool wave = nh_fit_is_wave(model, q);
+        if (wave) out[n++] = nh_call(model->dag, NH_SIN, q);
+        out[n++] = wave ? nh_call(model->dag, NH_COS, q) : q;
     }
     return n;
 }

@@ -19,14 +19,14 @@ static const char *const methods[] = {"GSL rk8pd", "CVODE Adams", "CVODE BDF"};
 /* "q1=..., q1'=..., ": the chart's initial state as text. */
 static const char *initial_words(const nh_benchmark_work *c)
 {
-    const nh_system *s = c->model->system;
+    const nh_system *system = c->model->system;
     const double *y = c->formulation[c->formulations - 1].z0; /* (q, v) */
     nh_text text;
     nh_text_init(&text);
-    for (size_t i = 0; i < s->coordinates; i++)
-        nh_text_addf(&text, "%s%s=%.17g", i ? ", " : "", s->coordinate[i].name, y[i]);
-    for (size_t i = 0; i < s->coordinates; i++)
-        nh_text_addf(&text, ", %s'=%.17g", s->coordinate[i].name, y[s->coordinates + i]);
+    for (size_t i = 0; i < system->coordinates; i++)
+        nh_text_addf(&text, "%s%s=%.17g", i ? ", " : "", system->coordinate[i].name, y[i]);
+    for (size_t i = 0; i < system->coordinates; i++)
+        nh_text_addf(&text, ", %s'=%.17g", system->coordinate[i].name, y[system->coordinates + i]);
     const char *kept = nh_arena_strdup(c->out->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return kept;

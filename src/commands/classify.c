@@ -13,34 +13,36 @@ enum { chosen_degree = 4 };
 /* ---- the family ---- */
 
 /* The index of a parameter; false with an error. */
-static bool find_parameter(const nh_system *s, const char *name, size_t *out, nh_error *error)
+static bool find_parameter(const nh_system *system, const char *name, size_t *out, nh_error *error)
 {
-    for (*out = 0; *out < s->parameters; ++*out)
-        if (!strcmp(s->parameter[*out].name, name)) return true;
-    nh_fail(error, NH_USAGE, "", "`%s` is not a parameter of %s", name, s->name);
-    return nh_system_hint_parameters(s, name, error);
+    for (*out = 0; *out < system->parameters; ++*out)
+        if (!strcmp(system->parameter[*out].name, name)) return true;
+    nh_fail(error, NH_USAGE, "", "`%s` is not a parameter of %s", name, system->name);
+    return nh_system_hint_parameters(system, name, error);
 }
 
 /* Holds all other parameters at the ratios that their decimals denote; exact settings of the caller stay. */
-static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_system *s, nh_error *error)
+static bool fix_others(nh_classified *x, const nh_classify_request *q, const nh_system *system, nh_error *error)
 {
-    x->other = nh_arena_alloc(x->arena, (s->parameters + q->settings + 1) * sizeof *x->other);
+    x->other = nh_arena_alloc(x->arena, (system->parameters + q->settings + 1) * sizeof *x->other);
     for (size_t k = 0; k < q->settings; k++)
         if (q->setting[k].bottom > 0 && !q->setting[k].formula) x->other[x->others++] = q->setting[k];
-    for (size_t i = 0; i < s->parameters; i++) {
-        nh_num value = nh_num_decimal(s->parameter[i].value);
-        const char *name = s->parameter[i].name;
+    for (size_t i = 0; i < system->parameters; i++) {
+        nh_num value = nh_num_decimal(system->parameter[i].value);
+        const char *name = system->parameter[i].name;
         bool varies = false;
         for (size_t k = 0; k < x->parameters; k++) varies |= !strcmp(name, x->over[k]);
         if (varies) continue;
         if (!nh_num_short(value)) {
             char digits[32];
-            nh_text_number(s->parameter[i].value, digits, sizeof digits);
+            nh_text_number(system->parameter[i].value, digits, sizeof digits);
             return nh_fail(error, NH_USAGE, "", "the value %s of `%s` has too many digits for a classification", digits,
                            name);
         }
-        x->other[x->others++] = (nh_setting){
-            .name = nh_arena_strdup(x->arena, name), .value = s->parameter[i].value, .top = value.p, .bottom = value.q};
+        x->other[x->others++] = (nh_setting){.name = nh_arena_strdup(x->arena, name),
+                                             .value = system->parameter[i].value,
+                                             .top = value.p,
+                                             .bottom = value.q};
     }
     x->fixed = x->others;
     for (size_t k = 0; k < q->settings; k++) /* functions of parameters that are set before them */
@@ -74,14 +76,14 @@ static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q
                           .options = q->options,
                           .model_only = model_only};
     request.options.degree = (double)x->degree;
-    nh_analysis *r = nh_analysis_create(&request, error);
+    nh_analysis *result = nh_analysis_create(&request, error);
     nh_free(setting);
-    return r;
+    return result;
 }
 
-static bool polynomial_in_velocities(const nh_analysis *r, const nh_current *f)
+static bool polynomial_in_velocities(const nh_analysis *result, const nh_current *f)
 {
-    return f->proof.proved && !f->series && !nh_depends(r->model->dag, f->phi, r->system->t);
+    return f->proof.proved && !f->series && !nh_depends(result->model->dag, f->phi, result->system->t);
 }
 
 /* Reads the system and analyses it at values of the parameters that have no special meaning. */
@@ -91,44 +93,45 @@ static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error
     nh_setting at[NH_MOST_PARAMETERS];
     size_t index[NH_MOST_PARAMETERS];
     while (x->parameters < NH_MOST_PARAMETERS && q->over[x->parameters]) x->parameters++;
-    nh_system *s = nh_system_read(q->system_path, q->settings, q->setting, error);
-    if (!s) return false;
-    bool good = nh_system_needs_values(s, "a classification", error);
+    nh_system *system = nh_system_read(q->system_path, q->settings, q->setting, error);
+    if (!system) return false;
+    bool good = nh_system_needs_values(system, "a classification", error);
     for (size_t k = 0; k < x->parameters && good; k++) {
         const char *name = x->over[k] = nh_arena_strdup(x->arena, q->over[x->parameters - 1 - k]);
-        good = find_parameter(s, name, &index[k], error);
+        good = find_parameter(system, name, &index[k], error);
         for (size_t j = 0; j < k && good; j++)
             if (index[j] == index[k]) good = nh_fail(error, NH_USAGE, "", "--over names `%s` twice", name);
-        if (good) at[k] = (nh_setting){.name = name, .value = unimportant(s->parameter[index[k]].value * apart[k])};
+        if (good)
+            at[k] = (nh_setting){.name = name, .value = unimportant(system->parameter[index[k]].value * apart[k])};
     }
-    if (good && fix_others(x, q, s, error)) {
-        x->name = nh_arena_strdup(x->arena, s->name);
-        x->title = nh_arena_strdup(x->arena, s->title);
+    if (good && fix_others(x, q, system, error)) {
+        x->name = nh_arena_strdup(x->arena, system->name);
+        x->title = nh_arena_strdup(x->arena, system->title);
         x->almost_all = analyse(x, q, at, q->of != NH_OF_CURRENTS, error);
     }
-    nh_system_free(s);
+    nh_system_free(system);
     return x->almost_all != NULL;
 }
 
 /* ---- special values ---- */
 
-const nh_current *nh_classified_current(const nh_analysis *r, size_t index)
+const nh_current *nh_classified_current(const nh_analysis *result, size_t index)
 {
-    return index < r->count ? &r->found[index] : &r->further[index - r->count].current;
+    return index < result->count ? &result->found[index] : &result->further[index - result->count].current;
 }
 
 /* The currents that hold for every value, on the heap. */
 static nh_ex *known_currents(nh_classified *x)
 {
-    const nh_analysis *r = x->almost_all;
-    nh_ex *phi = nh_alloc_array(r->count + r->furthers + 1, sizeof *phi);
-    x->currents = nh_arena_alloc(x->arena, (r->count + r->furthers + 1) * sizeof *x->currents);
-    for (size_t k = 0; k < r->count + r->furthers; k++) {
-        const nh_current *f = nh_classified_current(r, k);
-        if (!polynomial_in_velocities(r, f) || !f->proof.all_parameters) continue;
+    const nh_analysis *result = x->almost_all;
+    nh_ex *phi = nh_alloc_array(result->count + result->furthers + 1, sizeof *phi);
+    x->currents = nh_arena_alloc(x->arena, (result->count + result->furthers + 1) * sizeof *x->currents);
+    for (size_t k = 0; k < result->count + result->furthers; k++) {
+        const nh_current *f = nh_classified_current(result, k);
+        if (!polynomial_in_velocities(result, f) || !f->proof.all_parameters) continue;
         bool rational = true;
-        for (size_t i = 0; i < r->system->parameters; i++)
-            rational &= nh_parametric_rational(r->model->dag, f->phi, r->model->parameter[i]);
+        for (size_t i = 0; i < result->system->parameters; i++)
+            rational &= nh_parametric_rational(result->model->dag, f->phi, result->model->parameter[i]);
         if (!rational) continue;
         phi[x->known] = f->phi;
         x->currents[x->known++] = k;
@@ -138,24 +141,24 @@ static nh_ex *known_currents(nh_classified *x)
 
 /* The count of an analysis that has the coefficients of the family's: where the family depends on time, functions of
  * time too, also at a value at which the system does not. */
-static const nh_completeness *completeness_of(const nh_classified *x, const nh_analysis *r)
+static const nh_completeness *completeness_of(const nh_classified *x, const nh_analysis *result)
 {
     bool timely = !x->almost_all->completeness[NH_COMPLETE_IN_COORDINATES].counted;
-    return &r->completeness[timely ? NH_COMPLETE_IN_TIME : NH_COMPLETE_IN_COORDINATES];
+    return &result->completeness[timely ? NH_COMPLETE_IN_TIME : NH_COMPLETE_IN_COORDINATES];
 }
 
 /* The degree up to which the currents of an analysis account for the number of integrals; 0: none. */
-static size_t complete_degree(const nh_classified *x, const nh_analysis *r)
+static size_t complete_degree(const nh_classified *x, const nh_analysis *result)
 {
-    const nh_completeness *c = completeness_of(x, r);
+    const nh_completeness *c = completeness_of(x, result);
     return c->counted && !c->count.obstacle && !c->regional ? c->degree : 0;
 }
 
 /* Takes the analysis' own bounds into the numbers of degrees 1 .. rows where they are lower; the degree up to which the
  * products of its currents are as many. */
-static size_t exact_degree(const nh_classified *x, const nh_analysis *r, size_t rows, nh_classify_number *number)
+static size_t exact_degree(const nh_classified *x, const nh_analysis *result, size_t rows, nh_classify_number *number)
 {
-    const nh_completeness *c = completeness_of(x, r);
+    const nh_completeness *c = completeness_of(x, result);
     size_t d = 0;
     if (x->shape || !c->counted || c->count.obstacle || c->regional) return 0;
     for (size_t k = 0; k < c->count.rows && k < rows; k++) {
@@ -172,14 +175,14 @@ void nh_classified_analyse(nh_classified *x, const nh_classify_request *q, const
 {
     nh_error error;
     nh_error_clear(&error);
-    nh_analysis *r = analyse(x, q, at, false, &error);
-    *out = (nh_classified_finding){.result = r, .why = r ? NULL : nh_arena_strdup(x->arena, error.what)};
-    if (!r) return;
+    nh_analysis *result = analyse(x, q, at, false, &error);
+    *out = (nh_classified_finding){.result = result, .why = result ? NULL : nh_arena_strdup(x->arena, error.what)};
+    if (!result) return;
     nh_grow(&x->own, &x->owned_capacity, x->owned + 1, sizeof *x->own);
-    x->own[x->owned++] = r;
-    out->count = r->count + r->furthers;
-    out->complete = complete_degree(x, r);
-    out->exact = exact_degree(x, r, x->classification->rows, v->number);
+    x->own[x->owned++] = result;
+    out->count = result->count + result->furthers;
+    out->complete = complete_degree(x, result);
+    out->exact = exact_degree(x, result, x->classification->rows, v->number);
 }
 
 /* ---- parts ---- */
@@ -227,11 +230,11 @@ static void examine_value(nh_classified *x, const nh_classify_request *q, nh_cla
 static size_t complete_within(const nh_classified *x, const nh_classify_special *special, const nh_classified *within)
 {
     const nh_classification *c = within->classification;
-    const nh_analysis *r = within->almost_all;
+    const nh_analysis *result = within->almost_all;
     size_t d = 0;
     if (!special || !special->first) return 0;
     if (c->obstacle == nh_parametric_constant)
-        d = within->known == r->count + r->furthers ? complete_degree(within, r) : 0;
+        d = within->known == result->count + result->furthers ? complete_degree(within, result) : 0;
     else
         while (d < c->rows && d < x->classification->rows && c->row[d].known == c->row[d].number.bound) d++;
     return d >= special->first ? d : 0;

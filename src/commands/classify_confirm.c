@@ -37,14 +37,14 @@ static void symmetries(nh_classified *x, const nh_kinetic *k, const nh_options *
 
 /* ---- brackets ---- */
 
-static void growth(nh_classified *x, const nh_model *o, nh_classified_finding *out)
+static void growth(nh_classified *x, const nh_model *model, nh_classified_finding *out)
 {
-    nh_distribution d = nh_distribution_of(o);
+    nh_distribution d = nh_distribution_of(model);
     nh_text text;
     nh_text_init(&text);
     nh_text_add(&text, "growth vector (");
     for (size_t i = 0; i < d.growth.length; i++) nh_text_addf(&text, "%s%zu", i ? ", " : "", d.growth.rank[i]);
-    nh_text_addf(&text, ") of %zu dimensions, %s", d.growth.dimension, nh_constraint_integrability(o, &d));
+    nh_text_addf(&text, ") of %zu dimensions, %s", d.growth.dimension, nh_constraint_integrability(model, &d));
     out->shown = nh_arena_strdup(x->arena, nh_text_string(&text));
     out->complete = d.growth.proved && !d.growth.cut ? NH_LINEAR_MOST_LEVELS : 0;
     nh_text_clear(&text);
@@ -97,16 +97,17 @@ void nh_classified_confirm(nh_classified *x, const nh_classify_request *q, const
     nh_request request = {.system_path = q->system_path, .settings = count, .setting = setting, .options = q->options};
     if (x->of == NH_OF_MEASURE || x->of == NH_OF_HAMILTONIZATION) reduced(x, &request, out);
     else {
-        nh_system *s = nh_system_read(q->system_path, count, setting, &none);
-        nh_chart *chart = s ? nh_chart_create(s, NH_CHART_AUTO, (uint64_t)q->options.seed, &none) : NULL;
-        nh_model *o = chart ? nh_model_create(s, chart, &none) : NULL;
-        nh_kinetic *k = o && x->of == NH_OF_SYMMETRIES ? nh_kinetic_create(o, (uint64_t)q->options.seed, &none) : NULL;
+        nh_system *system = nh_system_read(q->system_path, count, setting, &none);
+        nh_chart *chart = system ? nh_chart_create(system, NH_CHART_AUTO, (uint64_t)q->options.seed, &none) : NULL;
+        nh_model *model = chart ? nh_model_create(system, chart, &none) : NULL;
+        nh_kinetic *k =
+            model && x->of == NH_OF_SYMMETRIES ? nh_kinetic_create(model, (uint64_t)q->options.seed, &none) : NULL;
         if (k) symmetries(x, k, &q->options, bound, out);
-        else if (o && x->of == NH_OF_INTEGRABILITY) growth(x, o, out);
+        else if (model && x->of == NH_OF_INTEGRABILITY) growth(x, model, out);
         else out->why = nh_arena_strdup(x->arena, none.what);
         nh_kinetic_free(k);
-        nh_model_free(o);
-        nh_system_free(s);
+        nh_model_free(model);
+        nh_system_free(system);
     }
     nh_free(setting);
 }

@@ -143,11 +143,13 @@ static bool is_new(const nh_classified *x, const nh_classified_part *within, con
 /* ---- from within ---- */
 
 /* The value of a name in a system that was read, as a ratio. */
-static bool number_of(const nh_system *s, const char *name, nh_num *out)
+static bool number_of(const nh_system *system, const char *name, nh_num *out)
 {
-    for (size_t i = 0; i < s->definitions; i++) {
-        if (strcmp(s->definition[i].name, name) || nh_kind_of(s->dag, s->definition[i].value) != NH_NUMBER) continue;
-        *out = nh_number_of(s->dag, s->definition[i].value);
+    for (size_t i = 0; i < system->definitions; i++) {
+        if (strcmp(system->definition[i].name, name) ||
+            nh_kind_of(system->dag, system->definition[i].value) != NH_NUMBER)
+            continue;
+        *out = nh_number_of(system->dag, system->definition[i].value);
         return true;
     }
     return false;

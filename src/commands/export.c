@@ -136,48 +136,49 @@ static bool read_parts(nh_export *x, const char *list, unsigned *out, nh_error *
 }
 
 /* An input may be any function of time: its derivative must not occur in the equations of motion. */
-static bool may_change(const nh_system *s, size_t parameter, nh_error *error)
+static bool may_change(const nh_system *system, size_t parameter, nh_error *error)
 {
-    nh_dag *d = s->dag;
-    const nh_parameter *u = &s->parameter[parameter];
+    nh_dag *d = system->dag;
+    const nh_parameter *u = &system->parameter[parameter];
     const char *where = NULL;
-    for (size_t i = 0; i < s->coordinates && !where; i++)
-        if (nh_depends(d, nh_diff(d, s->lagrangian, s->coordinate[i].v), u->symbol))
+    for (size_t i = 0; i < system->coordinates && !where; i++)
+        if (nh_depends(d, nh_diff(d, system->lagrangian, system->coordinate[i].v), u->symbol))
             where = "the velocities' part of the Lagrangian";
-    for (size_t a = 0; a < s->constraints && !where; a++)
-        if (nh_depends(d, nh_sub(d, s->constraint[a].lhs, s->constraint[a].rhs), u->symbol)) where = "a constraint";
+    for (size_t a = 0; a < system->constraints && !where; a++)
+        if (nh_depends(d, nh_sub(d, system->constraint[a].lhs, system->constraint[a].rhs), u->symbol))
+            where = "a constraint";
     if (!where) return true;
     nh_fail(error, NH_USAGE, "--input", "`%s` occurs in %s, so that the equations of motion contain its derivative",
             u->name, where);
     return nh_error_hint(error, "an input is a parameter of the forces or the potential, as in forces: [\"%s = u\"]",
-                         s->coordinate[0].name);
+                         system->coordinate[0].name);
 }
 
 static bool read_inputs(nh_export *x, const char *list, nh_error *error)
 {
-    const nh_system *s = x->system;
-    const char **names = nh_arena_alloc(x->arena, (s->parameters + 1) * sizeof *names), *word;
-    x->input = nh_arena_alloc(x->arena, (s->parameters + 1) * sizeof *x->input);
-    for (size_t i = 0; i < s->parameters; i++) {
-        names[i] = s->parameter[i].name;
-        if (!s->parameter[i].input) continue;
-        if (!may_change(s, i, error)) return false;
+    const nh_system *system = x->system;
+    const char **names = nh_arena_alloc(x->arena, (system->parameters + 1) * sizeof *names), *word;
+    x->input = nh_arena_alloc(x->arena, (system->parameters + 1) * sizeof *x->input);
+    for (size_t i = 0; i < system->parameters; i++) {
+        names[i] = system->parameter[i].name;
+        if (!system->parameter[i].input) continue;
+        if (!may_change(system, i, error)) return false;
         x->inputs++;
         x->input[i] = true;
     }
     while (list && (word = next_word(x->arena, &list))) {
         size_t i = 0;
-        while (i < s->parameters && strcmp(word, names[i])) i++;
-        if (i == s->parameters) {
-            nh_fail(error, NH_USAGE, "--input", "`%.100s` is not a parameter of %s", word, s->name);
-            const char *near = nh_text_nearest(word, names, s->parameters);
+        while (i < system->parameters && strcmp(word, names[i])) i++;
+        if (i == system->parameters) {
+            nh_fail(error, NH_USAGE, "--input", "`%.100s` is not a parameter of %s", word, system->name);
+            const char *near = nh_text_nearest(word, names, system->parameters);
             if (near) return nh_error_hint(error, "did you mean `%s`?", near);
             return nh_error_hint(error,
                                  "an input is declared in the system file: parameters: {%.40s: 0}, forces: "
                                  "[\"%s = %.40s\"]",
-                                 word, s->coordinate[0].name, word);
+                                 word, system->coordinate[0].name, word);
         }
-        if (!may_change(s, i, error)) return false;
+        if (!may_change(system, i, error)) return false;
         x->inputs += !x->input[i];
         x->input[i] = true;
     }

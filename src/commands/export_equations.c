@@ -23,17 +23,17 @@ typedef struct {
     const char **constraint; /* k: the names c1, c2, .. */
 } scope;
 
-static scope scope_of(nh_export *x, const nh_model *o)
+static scope scope_of(nh_export *x, const nh_model *model)
 {
-    scope s = {.x = x, .o = o, .d = o->dag, .arena = x->arena, .m = o->m, .k = o->k, .n = o->n};
+    scope s = {.x = x, .o = model, .d = model->dag, .arena = x->arena, .m = model->m, .k = model->k, .n = model->n};
     s.q = nh_arena_alloc(x->arena, (2 * s.m + 1) * sizeof *s.q);
     s.v = s.q + s.m;
     s.rate = nh_arena_alloc(x->arena, (s.m + s.k + 1) * sizeof *s.rate);
     s.constraint = s.rate + s.m;
     for (size_t i = 0; i < s.m; i++) {
-        s.q[i] = o->system->coordinate[i].q;
-        s.v[i] = o->system->coordinate[i].v;
-        s.rate[i] = nh_arena_printf(x->arena, "%s''", o->system->coordinate[i].name);
+        s.q[i] = model->system->coordinate[i].q;
+        s.v[i] = model->system->coordinate[i].v;
+        s.rate[i] = nh_arena_printf(x->arena, "%s''", model->system->coordinate[i].name);
     }
     for (size_t a = 0; a < s.k; a++) s.constraint[a] = nh_arena_printf(x->arena, "c%zu", a + 1);
     return s;
@@ -285,42 +285,42 @@ static size_t operations(const scope *s, size_t n, const nh_ex *e)
 /* q' = rho, w' = a: in closed form, or from M w' = A where that is shorter. */
 static void rates(const scope *s)
 {
-    const nh_model *o = s->o;
+    const nh_model *model = s->o;
     size_t m = s->m, n = s->n, factor = n * n * n / 3 + n * n;
     nh_ex *rate = take(s, m + n), *both = take(s, n * n + n);
-    memcpy(both, o->M, n * n * sizeof *both);
-    memcpy(both + n * n, o->A, n * sizeof *both);
+    memcpy(both, model->M, n * n * sizeof *both);
+    memcpy(both + n * n, model->A, n * sizeof *both);
     nh_export_function *f =
         on_submanifold(s, NH_EXPORT_SUBMANIFOLD, "rates", "Equations of motion on the constraint submanifold.");
-    memcpy(rate, o->rho, m * sizeof *rate);
-    memcpy(rate + m, o->a, n * sizeof *rate);
-    if (operations(s, n, o->a) > operations(s, n * n + n, both) + factor) {
+    memcpy(rate, model->rho, m * sizeof *rate);
+    memcpy(rate + m, model->a, n * sizeof *rate);
+    if (operations(s, n, model->a) > operations(s, n * n + n, both) + factor) {
         for (size_t i = 0; i < n; i++)
-            rate[m + i] = nh_symbol_fresh(s->d, nh_arena_printf(s->arena, "%s'", nh_name_of(s->d, o->chart->w[i])));
-        nh_export_linear(s->x, f, n, o->M, o->A, rate + m);
+            rate[m + i] = nh_symbol_fresh(s->d, nh_arena_printf(s->arena, "%s'", nh_name_of(s->d, model->chart->w[i])));
+        nh_export_linear(s->x, f, n, model->M, model->A, rate + m);
     }
     const char **label = names_of(s, m + n, state_of(s));
     for (size_t i = 0; i < m + n; i++) label[i] = nh_arena_printf(s->arena, "%s'", label[i]);
     nh_export_result(s->x, f, "rate", "derivatives of the state", m + n, 1, rate, label);
-    if (o->chart->implicit)
-        nh_export_result(s->x, f, "dependent", "dependent velocities, the next guess", o->chart->implicit, 1,
-                         o->chart->u, names_of(s, o->chart->implicit, o->chart->u));
+    if (model->chart->implicit)
+        nh_export_result(s->x, f, "dependent", "dependent velocities, the next guess", model->chart->implicit, 1,
+                         model->chart->u, names_of(s, model->chart->implicit, model->chart->u));
 }
 
 /* v = rho(t, q, w), and its inverse. */
 static void embedding(const scope *s)
 {
-    const nh_model *o = s->o;
+    const nh_model *model = s->o;
     nh_ex *state = take(s, s->m + s->n);
     nh_export_function *f = on_submanifold(s, NH_EXPORT_SUBMANIFOLD, "velocities", "Velocities of all coordinates.");
-    nh_export_result(s->x, f, "v", "one for each coordinate", s->m, 1, o->rho, names_of(s, s->m, s->v));
+    nh_export_result(s->x, f, "v", "one for each coordinate", s->m, 1, model->rho, names_of(s, s->m, s->v));
     memcpy(state, s->q, s->m * sizeof *state);
-    if (!nh_chart_inverse(o->chart, state + s->m)) {
-        nh_export_note(s->x, "the chart %s is not solved for its velocities", o->chart->name);
+    if (!nh_chart_inverse(model->chart, state + s->m)) {
+        nh_export_note(s->x, "the chart %s is not solved for its velocities", model->chart->name);
         return;
     }
     f = nh_export_add(
-        s->x, NH_EXPORT_SUBMANIFOLD, o->system, "state_of",
+        s->x, NH_EXPORT_SUBMANIFOLD, model->system, "state_of",
         with_branch(s, "The state on the constraint submanifold from coordinates and velocities that satisfy the "
                        "constraints."));
     place_and_velocity(s, f);
@@ -330,24 +330,24 @@ static void embedding(const scope *s)
 
 static void submanifold_momenta(const scope *s)
 {
-    const nh_model *o = s->o;
+    const nh_model *model = s->o;
     size_t n = s->n;
     nh_ex *p = nh_export_symbols(s->x, s->d, "p", n);
-    const char **label = names_of(s, n, o->chart->w);
+    const char **label = names_of(s, n, model->chart->w);
     nh_export_function *f = on_submanifold(s, NH_EXPORT_SUBMANIFOLD, "submanifold_momenta",
                                            "Momenta on the constraint submanifold, dL/dv * dv/dw.");
-    nh_export_result(s->x, f, "momentum", "one for each velocity of the chart", n, 1, o->pbar, label);
-    if (o->chart->implicit) return;
+    nh_export_result(s->x, f, "momentum", "one for each velocity of the chart", n, 1, model->pbar, label);
+    if (model->chart->implicit) return;
     for (size_t i = 0; i < s->m * n; i++) /* M is their Jacobian only where v is affine in w */
         for (size_t j = 0; j < n; j++)
-            if (nh_depends(s->d, o->R[i], o->chart->w[j]))
+            if (nh_depends(s->d, model->R[i], model->chart->w[j]))
                 return nh_export_note(s->x, "the momenta on the constraint submanifold are not inverted: constraints "
                                             "are not affine in the velocities");
-    f = nh_export_add(s->x, NH_EXPORT_SUBMANIFOLD, o->system, "submanifold_state_of_momenta",
+    f = nh_export_add(s->x, NH_EXPORT_SUBMANIFOLD, model->system, "submanifold_state_of_momenta",
                       "The state that has these momenta.");
     nh_export_argument(s->x, f, "q", "coordinates", s->m, s->q);
     nh_export_argument(s->x, f, "momentum", "one for each velocity of the chart", n, p);
-    invert(s, f, n, o->chart->w, o->pbar, o->M, p);
+    invert(s, f, n, model->chart->w, model->pbar, model->M, p);
     nh_export_result(s->x, f, "state", "coordinates, then the velocities of the chart", s->m + n, 1, state_of(s),
                      names_of(s, s->m + n, state_of(s)));
 }
@@ -385,16 +385,16 @@ static void gradient(const scope *s, nh_ex e, size_t n, const nh_ex *symbol, boo
     for (size_t i = 0; i < n && implicit; i++) out[i] = nh_diff(s->d, e, symbol[i]);
 }
 
-static void currents_in(const scope *s, const nh_analysis *r, bool submanifold)
+static void currents_in(const scope *s, const nh_analysis *result, bool submanifold)
 {
     size_t n = 1 + s->m + (submanifold ? s->n : s->m), count = 0;
-    nh_ex *symbol = take(s, n), *value = take(s, r->count), *slope = take(s, r->count * n);
-    const char **label = nh_arena_alloc(s->arena, (r->count + 1) * sizeof *label);
+    nh_ex *symbol = take(s, n), *value = take(s, result->count), *slope = take(s, result->count * n);
+    const char **label = nh_arena_alloc(s->arena, (result->count + 1) * sizeof *label);
     symbol[0] = s->o->system->t;
     memcpy(symbol + 1, s->q, s->m * sizeof *symbol);
     memcpy(symbol + 1 + s->m, submanifold ? s->o->chart->w : s->v, (n - 1 - s->m) * sizeof *symbol);
-    for (size_t i = 0; i < r->count; i++) {
-        const nh_current *f = &r->found[i];
+    for (size_t i = 0; i < result->count; i++) {
+        const nh_current *f = &result->found[i];
         if (!submanifold && !f->has_in_velocities) continue;
         label[count] = f->name;
         value[count] = submanifold ? f->phi : f->in_velocities;
@@ -416,10 +416,10 @@ static void currents_in(const scope *s, const nh_analysis *r, bool submanifold)
     }
 }
 
-void nh_export_currents(nh_export *x, const nh_analysis *r)
+void nh_export_currents(nh_export *x, const nh_analysis *result)
 {
-    scope s = scope_of(x, r->model);
-    if (!r->count) nh_export_note(x, "currents: none was found");
-    currents_in(&s, r, false);
-    currents_in(&s, r, true);
+    scope s = scope_of(x, result->model);
+    if (!result->count) nh_export_note(x, "currents: none was found");
+    currents_in(&s, result, false);
+    currents_in(&s, result, true);
 }

@@ -13,7 +13,7 @@ enum { outputs = 601, scan_points = 128, scan_values = 401 };
 
 /* Computes a motion with one parameter changed, for which the files are read anew: initial values and expressions may
  * depend on it. */
-static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_request *q, const nh_figure_request *f,
+static bool open_motion(nh_simulation *s, const nh_analysis *result, const nh_request *q, const nh_figure_request *f,
                         double value, nh_state *initial, double *until, nh_error *error)
 {
     nh_setting *setting = nh_arena_alloc(s->arena, (q->settings + 1) * sizeof *setting);
@@ -25,19 +25,20 @@ static bool open_motion(nh_simulation *s, const nh_analysis *r, const nh_request
                          .settings = settings,
                          .setting = setting,
                          .chart = q->chart,
-                         .options = r->options,
+                         .options = result->options,
                          .until_given = true,
                          .tolerance_given = true};
-    if (motion.chart == NH_CHART_AUTO) motion.chart = r->analysis->chart;
+    if (motion.chart == NH_CHART_AUTO) motion.chart = result->analysis->chart;
     return nh_simulate_read(s, &motion, initial, until, error);
 }
 
 /* Follows a motion from the initial time to `end`, which may be earlier: quantity k at value[i * n + k], i counted from
  * the initial time. */
-static nh_trajectory *integrate(nh_simulation *s, const nh_analysis *r, const nh_request *q, const nh_figure_request *f,
-                                const nh_state *initial, double end, size_t count, double *times, nh_error *error)
+static nh_trajectory *integrate(nh_simulation *s, const nh_analysis *result, const nh_request *q,
+                                const nh_figure_request *f, const nh_state *initial, double end, size_t count,
+                                double *times, nh_error *error)
 {
-    nh_options options = r->options;
+    nh_options options = result->options;
     nh_ex *e = nh_arena_alloc(s->arena, (f->quantities + 1) * sizeof *e);
     for (size_t k = 0; k < f->quantities; k++) e[k] = f->quantity[k].value;
     for (size_t i = 0; i < count; i++) times[i] = initial->t + (end - initial->t) * (double)i / (double)(count - 1);
@@ -74,24 +75,24 @@ static void join(course *c, const nh_trajectory *part, size_t n, bool back)
     }
 }
 
-static bool follow(nh_analysis *r, const nh_request *q, size_t which, double value, course *out, nh_error *error)
+static bool follow(nh_analysis *result, const nh_request *q, size_t which, double value, course *out, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_simulation *s = nh_arena_alloc(arena, sizeof *s);
     nh_state initial;
     double until;
     s->arena = arena;
-    bool good = open_motion(s, r, q, &r->analysis->figure[which], value, &initial, &until, error);
+    bool good = open_motion(s, result, q, &result->analysis->figure[which], value, &initial, &until, error);
     const nh_figure_request *f = good ? &s->analysis->figure[which] : NULL;
     double begin = good && f->has_time ? f->begin : initial.t, end = good && f->has_time ? f->end : until;
-    out->time = nh_arena_alloc(r->arena, 2 * outputs * sizeof *out->time);
-    out->value = good ? nh_arena_alloc(r->arena, 2 * outputs * (f->quantities + 1) * sizeof *out->value) : NULL;
+    out->time = nh_arena_alloc(result->arena, 2 * outputs * sizeof *out->time);
+    out->value = good ? nh_arena_alloc(result->arena, 2 * outputs * (f->quantities + 1) * sizeof *out->value) : NULL;
     out->count = 0;
     double *times = nh_arena_alloc(arena, outputs * sizeof *times);
     for (int part = 0; part < 2 && good; part++) {
         double to = part == 0 ? begin : end;
         if (part == 0 ? !(to < initial.t) : !(to > initial.t)) continue;
-        nh_trajectory *t = integrate(s, r, q, f, &initial, to, outputs, times, error);
+        nh_trajectory *t = integrate(s, result, q, f, &initial, to, outputs, times, error);
         good = t != NULL;
         if (good) join(out, t, f->quantities, part == 0);
         nh_trajectory_free(t);
@@ -102,85 +103,85 @@ static bool follow(nh_analysis *r, const nh_request *q, size_t which, double val
 
 /* ---- a figure ---- */
 
-static const char *name_of(nh_analysis *r, const nh_figure_request *f, size_t k, double value)
+static const char *name_of(nh_analysis *result, const nh_figure_request *f, size_t k, double value)
 {
     char number[40];
     nh_text_number(value, number, sizeof number);
     if (!f->values) return f->kind == NH_FIGURE_PATH ? f->title : f->quantity[k].name;
-    if (f->kind == NH_FIGURE_PATH) return nh_arena_printf(r->arena, "%s = %s", f->vary, number);
-    return nh_arena_printf(r->arena, "%s, %s = %s", f->quantity[k].name, f->vary, number);
+    if (f->kind == NH_FIGURE_PATH) return nh_arena_printf(result->arena, "%s = %s", f->vary, number);
+    return nh_arena_printf(result->arena, "%s, %s = %s", f->quantity[k].name, f->vary, number);
 }
 
-static double *column(nh_analysis *r, const course *c, size_t n, size_t k)
+static double *column(nh_analysis *result, const course *c, size_t n, size_t k)
 {
-    double *out = nh_arena_alloc(r->arena, (c->count + 1) * sizeof *out);
+    double *out = nh_arena_alloc(result->arena, (c->count + 1) * sizeof *out);
     for (size_t i = 0; i < c->count; i++) out[i] = c->value[i * n + k];
     return out;
 }
 
-static void add_motion(nh_analysis *r, nh_figure *figure, const course *c, double value)
+static void add_motion(nh_analysis *result, nh_figure *figure, const course *c, double value)
 {
     const nh_figure_request *f = figure->request;
     size_t n = f->quantities;
     if (f->kind == NH_FIGURE_PATH) {
         figure->curve[figure->curves++] = (nh_figure_curve){
-            name_of(r, f, 0, value),          0, value, c->count, column(r, c, n, 0), column(r, c, n, 1),
-            n > 2 ? column(r, c, n, 2) : NULL};
+            name_of(result, f, 0, value),          0, value, c->count, column(result, c, n, 0), column(result, c, n, 1),
+            n > 2 ? column(result, c, n, 2) : NULL};
         return;
     }
     for (size_t k = 0; k < n; k++)
         figure->curve[figure->curves++] =
-            (nh_figure_curve){name_of(r, f, k, value), k, value, c->count, c->time, column(r, c, n, k), NULL};
+            (nh_figure_curve){name_of(result, f, k, value), k, value, c->count, c->time, column(result, c, n, k), NULL};
 }
 
-static void motions(nh_analysis *r, const nh_request *q, size_t which, nh_figure *figure)
+static void motions(nh_analysis *result, const nh_request *q, size_t which, nh_figure *figure)
 {
     const nh_figure_request *f = figure->request;
     size_t count = f->values ? f->values : 1;
-    figure->curve = nh_arena_alloc(r->arena, (count * f->quantities + 1) * sizeof *figure->curve);
+    figure->curve = nh_arena_alloc(result->arena, (count * f->quantities + 1) * sizeof *figure->curve);
     for (size_t i = 0; i < count && !nh_interrupted(); i++) {
         nh_error trouble;
         nh_error_clear(&trouble);
         course c;
         double value = f->values ? f->value[i] : NAN;
-        if (follow(r, q, which, value, &c, &trouble)) add_motion(r, figure, &c, value);
-        else nh_analysis_warn(r, "figure `%s`: a curve is missing: %s", f->title, trouble.what);
+        if (follow(result, q, which, value, &c, &trouble)) add_motion(result, figure, &c, value);
+        else nh_analysis_warn(result, "figure `%s`: a curve is missing: %s", f->title, trouble.what);
     }
 }
 
-static void scan(nh_analysis *r, nh_figure *figure)
+static void scan(nh_analysis *result, nh_figure *figure)
 {
-    const nh_analysis_file *a = r->analysis;
+    const nh_analysis_file *a = result->analysis;
     const nh_unknown *u = &a->unknown[figure->request->unknown];
     nh_error trouble;
     nh_error_clear(&trouble);
-    double *x = nh_arena_alloc(r->arena, scan_values * sizeof *x),
-           *y = nh_arena_alloc(r->arena, scan_values * sizeof *y);
+    double *x = nh_arena_alloc(result->arena, scan_values * sizeof *x),
+           *y = nh_arena_alloc(result->arena, scan_values * sizeof *y);
     for (size_t i = 0; i < scan_values; i++) x[i] = u->low + (u->high - u->low) * (double)i / (scan_values - 1);
-    nh_points *points = nh_points_create(r->model, scan_points, 1, (uint64_t)r->options.seed, &trouble);
-    bool good = points && r->hits &&
-                nh_unknowns_scan(r->model, points, a->families, a->family, u, &r->options, r->hits->generic,
-                                 scan_values, x, y, &trouble);
+    nh_points *points = nh_points_create(result->model, scan_points, 1, (uint64_t)result->options.seed, &trouble);
+    bool good = points && result->hits &&
+                nh_unknowns_scan(result->model, points, a->families, a->family, u, &result->options,
+                                 result->hits->generic, scan_values, x, y, &trouble);
     nh_points_free(points);
     if (!good) {
-        nh_analysis_warn(r, "figure `%s`: %s", figure->request->title,
+        nh_analysis_warn(result, "figure `%s`: %s", figure->request->title,
                          trouble.code != NH_OK ? trouble.what : "the unknown was not searched");
         return;
     }
-    figure->curve = nh_arena_alloc(r->arena, 2 * sizeof *figure->curve);
+    figure->curve = nh_arena_alloc(result->arena, 2 * sizeof *figure->curve);
     figure->curve[figure->curves++] =
-        (nh_figure_curve){nh_name_of(r->model->dag, u->symbol), 0, NAN, scan_values, x, y, NULL};
+        (nh_figure_curve){nh_name_of(result->model->dag, u->symbol), 0, NAN, scan_values, x, y, NULL};
 }
 
 /* The two values beside the gap for one number of samples; NAN where there is no such value. */
-static bool gap_at(const nh_analysis *r, const nh_ansatz *a, size_t count, double out[2], nh_error *error)
+static bool gap_at(const nh_analysis *result, const nh_ansatz *a, size_t count, double out[2], nh_error *error)
 {
-    nh_points *points = nh_points_create(r->model, count, 1, (uint64_t)r->options.seed, error);
+    nh_points *points = nh_points_create(result->model, count, 1, (uint64_t)result->options.seed, error);
     if (!points) return false;
     nh_equations *equations = nh_equations_create(a->columns, 1);
-    nh_rows *rows = nh_rows_create(r->model, a, 0, NULL);
+    nh_rows *rows = nh_rows_create(result->model, a, 0, NULL);
     nh_rows_current(rows, points, NULL, equations);
-    nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
+    nh_nullspace_options limits = nh_nullspace_options_from(&result->options);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, error);
     out[0] = s && s->dimension ? s->spectrum[s->dimension - 1] : NAN;
     out[1] = s && s->dimension < s->rank ? s->spectrum[s->dimension] : NAN;
@@ -192,46 +193,47 @@ static bool gap_at(const nh_analysis *r, const nh_ansatz *a, size_t count, doubl
     return good;
 }
 
-static void samples(nh_analysis *r, size_t families, const nh_family *family, nh_figure *figure)
+static void samples(nh_analysis *result, size_t families, const nh_family *family, nh_figure *figure)
 {
     const nh_figure_request *f = figure->request;
     nh_error trouble;
     nh_error_clear(&trouble);
     nh_points *ranges =
-        families ? nh_points_create(r->model, scan_points, 1, (uint64_t)r->options.seed, &trouble) : NULL;
+        families ? nh_points_create(result->model, scan_points, 1, (uint64_t)result->options.seed, &trouble) : NULL;
     nh_ansatz *a =
-        ranges ? nh_ansatz_create(r->model, ranges, families, family, (size_t)r->options.columns, &trouble) : NULL;
+        ranges ? nh_ansatz_create(result->model, ranges, families, family, (size_t)result->options.columns, &trouble)
+               : NULL;
     nh_points_free(ranges);
-    double *x = nh_arena_alloc(r->arena, (f->values + 1) * sizeof *x), *y[2], gap[2];
+    double *x = nh_arena_alloc(result->arena, (f->values + 1) * sizeof *x), *y[2], gap[2];
     size_t n = 0;
-    for (int j = 0; j < 2; j++) y[j] = nh_arena_alloc(r->arena, (f->values + 1) * sizeof **y);
+    for (int j = 0; j < 2; j++) y[j] = nh_arena_alloc(result->arena, (f->values + 1) * sizeof **y);
     for (size_t i = 0; i < f->values && a && !nh_interrupted(); i++) {
-        if (!gap_at(r, a, (size_t)f->value[i], gap, &trouble)) continue;
+        if (!gap_at(result, a, (size_t)f->value[i], gap, &trouble)) continue;
         x[n] = f->value[i];
         y[0][n] = gap[0];
         y[1][n++] = gap[1];
     }
     nh_ansatz_free(a);
     if (!n)
-        nh_analysis_warn(r, "figure `%s`: %s", f->title,
+        nh_analysis_warn(result, "figure `%s`: %s", f->title,
                          trouble.code != NH_OK ? trouble.what : "it needs an ansatz in the analysis file");
-    figure->curve = nh_arena_alloc(r->arena, 2 * sizeof *figure->curve);
+    figure->curve = nh_arena_alloc(result->arena, 2 * sizeof *figure->curve);
     for (int j = 0; j < 2 && n; j++)
         figure->curve[figure->curves++] =
             (nh_figure_curve){j ? "smallest value above the gap" : "largest null value", 0, NAN, n, x, y[j], NULL};
 }
 
-void nh_figures_compute(nh_analysis *r, const nh_request *q, size_t families, const nh_family *family)
+void nh_figures_compute(nh_analysis *result, const nh_request *q, size_t families, const nh_family *family)
 {
-    const nh_analysis_file *a = r->analysis;
+    const nh_analysis_file *a = result->analysis;
     if (!a || !a->figures) return;
     nh_progress("the figures of the analysis file", -1);
-    r->figure = nh_arena_alloc(r->arena, a->figures * sizeof *r->figure);
+    result->figure = nh_arena_alloc(result->arena, a->figures * sizeof *result->figure);
     for (size_t i = 0; i < a->figures && !nh_interrupted(); i++) {
-        nh_figure *f = &r->figure[r->figures++];
+        nh_figure *f = &result->figure[result->figures++];
         *f = (nh_figure){.request = &a->figure[i]};
-        if (f->request->kind == NH_FIGURE_SCAN) scan(r, f);
-        else if (f->request->kind == NH_FIGURE_SAMPLES) samples(r, families, family, f);
-        else motions(r, q, i, f);
+        if (f->request->kind == NH_FIGURE_SCAN) scan(result, f);
+        else if (f->request->kind == NH_FIGURE_SAMPLES) samples(result, families, family, f);
+        else motions(result, q, i, f);
     }
 }

@@ -20,18 +20,18 @@ static const double fits = 1e-9;
  * condition fails. */
 static bool at_the_start(const nh_benchmark_work *c, const nh_known_motion *k, double *value)
 {
-    const nh_model *o = c->model;
+    const nh_model *model = c->model;
     size_t n = k->starts + k->conditions;
     nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
-    double *point = nh_alloc_array(o->chart->width + 1, sizeof *point);
+    double *point = nh_alloc_array(model->chart->width + 1, sizeof *point);
     nh_error ignored;
     nh_error_clear(&ignored);
     bool good = nh_dynamics_point(c->formulation[0].dynamics, c->solution.times[0], c->formulation[0].z0, point);
     for (size_t i = 0; i < n && good; i++)
-        good = nh_analysis_file_to_chart(o, i < k->starts ? k->start[i].value : k->condition[i - k->starts], &e[i],
+        good = nh_analysis_file_to_chart(model, i < k->starts ? k->start[i].value : k->condition[i - k->starts], &e[i],
                                          &ignored);
     if (good) {
-        nh_tape *tape = nh_model_tape(o, n, e);
+        nh_tape *tape = nh_model_tape(model, n, e);
         nh_tape_work *work = nh_tape_work_create(tape);
         nh_tape_eval(tape, work, point, value);
         nh_tape_work_free(work);
@@ -46,18 +46,19 @@ static bool at_the_start(const nh_benchmark_work *c, const nh_known_motion *k, d
 /* Its coordinates, and as their derivatives by t the velocities, at the output times, into rows of 2m. */
 static bool along(const nh_benchmark_work *c, const nh_known_motion *k, const double *start, double *state)
 {
-    const nh_model *o = c->model;
-    const nh_system *s = o->system;
-    size_t m = o->m, n = 0, inputs = 1 + k->starts;
+    const nh_model *model = c->model;
+    const nh_system *system = model->system;
+    size_t m = model->m, n = 0, inputs = 1 + k->starts;
     nh_ex *in = nh_alloc_array(inputs, sizeof *in), *out = nh_alloc_array(2 * m, sizeof *out);
     double *x = nh_alloc_array(inputs, sizeof *x), *value = nh_alloc_array(2 * m, sizeof *value);
     bool good = true;
-    in[0] = s->t;
+    in[0] = system->t;
     if (k->starts) memcpy(in + 1, k->symbol, k->starts * sizeof *in);
     if (k->starts) memcpy(x + 1, start, k->starts * sizeof *x);
     for (size_t j = 0; j < m; j++)
-        if (k->given[j]) out[n++] = k->value[j], out[n++] = nh_diff(o->dag, k->value[j], s->t);
-    nh_tape *tape = nh_tape_create(o->dag, inputs, in, n, out, s->parameters, o->parameter, o->parameter_value);
+        if (k->given[j]) out[n++] = k->value[j], out[n++] = nh_diff(model->dag, k->value[j], system->t);
+    nh_tape *tape =
+        nh_tape_create(model->dag, inputs, in, n, out, system->parameters, model->parameter, model->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t i = 0; i < NH_BENCHMARK_OUTPUTS; i++) {
         x[0] = c->solution.times[i];
@@ -125,7 +126,7 @@ double nh_closed_off(nh_benchmark_work *c, const nh_known_motions *f, double *st
 /* "phi and y" */
 static const char *names_of(const nh_benchmark_work *c, const nh_known_motions *f)
 {
-    const nh_system *s = c->model->system;
+    const nh_system *system = c->model->system;
     const char *text = "";
     size_t left = f->motion->values;
     for (size_t j = 0; j < c->model->m; j++) {
@@ -134,7 +135,7 @@ static const char *names_of(const nh_benchmark_work *c, const nh_known_motions *
                                !text[0]    ? ""
                                : left == 1 ? " and "
                                            : ", ",
-                               s->coordinate[j].name);
+                               system->coordinate[j].name);
         left--;
     }
     return text;
@@ -142,9 +143,9 @@ static const char *names_of(const nh_benchmark_work *c, const nh_known_motions *
 
 static void refuse(nh_benchmark_work *c, const nh_known_motions *f, double off, size_t worst, const char *methods)
 {
-    const nh_system *s = c->model->system;
+    const nh_system *system = c->model->system;
     size_t m = c->model->m, j = worst % (2 * m);
-    const char *name = j < m ? s->coordinate[j].name : nh_name_of(c->model->dag, s->coordinate[j - m].v);
+    const char *name = j < m ? system->coordinate[j].name : nh_name_of(c->model->dag, system->coordinate[j - m].v);
     nh_benchmark_work_refuse(
         c, nh_arena_printf(c->out->arena, "closed form \"%s\"", f->motion->name),
         nh_arena_printf(c->out->arena, "it is not this motion: %s is off by %.0e at t = %g, where %s agree to %.0e",

@@ -23,16 +23,16 @@ typedef struct {
 static bool read_state(family *f, nh_error *error)
 {
     nh_linearized *x = f->x;
-    nh_system *s = x->system;
-    size_t m = s->coordinates;
+    nh_system *system = x->system;
+    size_t m = system->coordinates;
     f->value = nh_arena_alloc(x->arena, (1 + 2 * m) * sizeof *f->value);
     f->given = nh_arena_alloc(x->arena, (2 * m + 1) * sizeof *f->given);
-    f->parameter = nh_arena_alloc(x->arena, (s->parameters + 1) * sizeof *f->parameter);
-    for (size_t i = 0; i < s->parameters; i++) f->parameter[i] = s->parameter[i].value;
-    for (size_t i = 0; i < 1 + 2 * m; i++) f->value[i] = nh_int(s->dag, 0);
+    f->parameter = nh_arena_alloc(x->arena, (system->parameters + 1) * sizeof *f->parameter);
+    for (size_t i = 0; i < system->parameters; i++) f->parameter[i] = system->parameter[i].value;
+    for (size_t i = 0; i < 1 + 2 * m; i++) f->value[i] = nh_int(system->dag, 0);
     if (!x->at || !x->at[strspn(x->at, " ")]) return true;
-    nh_model names = {.system = s, .dag = s->dag, .arena = x->arena, .m = m, .k = s->constraints};
-    nh_system_bindings(s, &names.parameter, &names.parameter_value);
+    nh_model names = {.system = system, .dag = system->dag, .arena = x->arena, .m = m, .k = system->constraints};
+    nh_system_bindings(system, &names.parameter, &names.parameter_value);
     f->file = nh_analysis_file_start("--at", x->at, NH_USAGE, error);
     if (!f->file || !nh_analysis_file_resolve(f->file, &names, error)) return false;
     memcpy(f->value, f->file->exact, (1 + 2 * m) * sizeof *f->value);
@@ -43,21 +43,21 @@ static bool read_state(family *f, nh_error *error)
 /* A parameter, a coordinate or a velocity. */
 static bool read_axis(family *f, const nh_scan_axis *axis, nh_error *error)
 {
-    const nh_system *s = f->x->system;
-    size_t m = s->coordinates, n = 0;
-    const char **names = nh_arena_alloc(f->x->arena, (s->parameters + 2 * m + 1) * sizeof *names);
-    for (size_t i = 0; i < s->parameters; i++) {
-        if (!strcmp(axis->name, s->parameter[i].name)) f->axis_parameter = (long)i;
-        names[n++] = s->parameter[i].name;
+    const nh_system *system = f->x->system;
+    size_t m = system->coordinates, n = 0;
+    const char **names = nh_arena_alloc(f->x->arena, (system->parameters + 2 * m + 1) * sizeof *names);
+    for (size_t i = 0; i < system->parameters; i++) {
+        if (!strcmp(axis->name, system->parameter[i].name)) f->axis_parameter = (long)i;
+        names[n++] = system->parameter[i].name;
     }
     for (size_t i = 0; i < 2 * m; i++) {
-        const nh_coordinate *c = &s->coordinate[i % m];
-        names[n] = i < m ? c->name : nh_name_of(s->dag, c->v);
+        const nh_coordinate *c = &system->coordinate[i % m];
+        names[n] = i < m ? c->name : nh_name_of(system->dag, c->v);
         if (!strcmp(axis->name, names[n++])) f->axis_value = (long)i;
     }
     if (f->axis_parameter >= 0 || f->axis_value >= 0) return true;
     nh_fail(error, NH_USAGE, "", "--over: `%s` is not a parameter, a coordinate or a velocity of %s", axis->name,
-            s->name);
+            system->name);
     return nh_error_hint_near(error, axis->name, names, n, "a velocity is written x'");
 }
 

@@ -41,13 +41,13 @@ static nh_export_function *function_of_state(const maker *w, const char *name, c
 static void choose_state(maker *w)
 {
     const nh_chart *c = w->o->chart;
-    const nh_system *s = w->o->system;
+    const nh_system *system = w->o->system;
     w->everywhere = c->implicit || (!c->quasi && !c->regular);
     w->states = w->m + (w->everywhere ? w->m : w->n);
     w->state = take(w, w->states);
     for (size_t i = 0; i < w->m; i++) {
-        w->state[i] = s->coordinate[i].q;
-        if (w->everywhere) w->state[w->m + i] = s->coordinate[i].v;
+        w->state[i] = system->coordinate[i].q;
+        if (w->everywhere) w->state[w->m + i] = system->coordinate[i].v;
     }
     for (size_t i = 0; i < w->n && !w->everywhere; i++) w->state[w->m + i] = c->w[i];
 }
@@ -215,11 +215,11 @@ static void quantities(maker *w)
 /* Equations between positions; in all coordinates the constraints, too. */
 static void conditions(maker *w)
 {
-    const nh_system *s = w->o->system;
-    nh_ex *value = take(w, s->constraints + w->k);
+    const nh_system *system = w->o->system;
+    nh_ex *value = take(w, system->constraints + w->k);
     size_t n = 0;
-    for (size_t a = 0; a < s->constraints; a++)
-        if (s->constraint[a].level) value[n++] = s->constraint[a].level;
+    for (size_t a = 0; a < system->constraints; a++)
+        if (system->constraint[a].level) value[n++] = system->constraint[a].level;
     for (size_t a = 0; w->everywhere && a < w->k; a++) value[n++] = w->f[a];
     if (!n) return;
     nh_export_function *f = function_of_state(w, "conditions", "zero at states that the constraints allow");
@@ -255,12 +255,16 @@ nh_live *nh_live_create(const nh_live_request *q, nh_live_lacks *lacks)
     nh_arena *arena = nh_arena_create();
     nh_live *l = nh_arena_alloc(arena, sizeof *l);
     nh_export *x = nh_arena_alloc(arena, sizeof *x);
-    const nh_model *o = q->model;
-    *x = (nh_export){.arena = arena, .borrowed = true, .system = o->system, .model = o};
-    x->input = nh_arena_alloc(arena, (o->system->parameters + 1) * sizeof *x->input);
-    *l = (nh_live){
-        .code = x, .model = o, .begin = q->begin, .end = q->end, .quantities = q->quantities, .quantity = q->quantity};
-    maker w = {.live = l, .q = q, .x = x, .o = o, .d = o->dag, .m = o->m, .n = o->n, .k = o->k};
+    const nh_model *model = q->model;
+    *x = (nh_export){.arena = arena, .borrowed = true, .system = model->system, .model = model};
+    x->input = nh_arena_alloc(arena, (model->system->parameters + 1) * sizeof *x->input);
+    *l = (nh_live){.code = x,
+                   .model = model,
+                   .begin = q->begin,
+                   .end = q->end,
+                   .quantities = q->quantities,
+                   .quantity = q->quantity};
+    maker w = {.live = l, .q = q, .x = x, .o = model, .d = model->dag, .m = model->m, .n = model->n, .k = model->k};
     choose_state(&w);
     if (w.everywhere) equations_everywhere(&w);
     leave_quantities(&w, lacks);

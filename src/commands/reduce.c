@@ -126,11 +126,11 @@ static bool group_of_fields(nh_reduction *r, const char *text, nh_error *error)
 /* The fields of the system file. */
 static bool group_of_file(nh_reduction *r, nh_error *error)
 {
-    const nh_system *s = r->system;
-    nh_generator *g = nh_alloc_array(s->symmetries, sizeof *g);
-    for (size_t i = 0; i < s->symmetries; i++)
-        nh_generator_init(&g[i], r->kinetic, NULL, s->symmetry + i * s->coordinates, &r->options);
-    r->group = nh_group_of(r->kinetic, s->symmetries, g, &r->options);
+    const nh_system *system = r->system;
+    nh_generator *g = nh_alloc_array(system->symmetries, sizeof *g);
+    for (size_t i = 0; i < system->symmetries; i++)
+        nh_generator_init(&g[i], r->kinetic, NULL, system->symmetry + i * system->coordinates, &r->options);
+    r->group = nh_group_of(r->kinetic, system->symmetries, g, &r->options);
     nh_free(g);
     return nh_action_check(&r->group->action, &r->options, error);
 }

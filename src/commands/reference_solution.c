@@ -35,12 +35,12 @@ bool nh_formulation_open(nh_formulation *f, nh_model *model, const nh_state *ini
 
 bool nh_formulation_open_all(nh_formulation *f, nh_formulation *chart, double t, nh_arena *arena, nh_error *error)
 {
-    const nh_model *o = chart->model;
-    *f = (nh_formulation){.name = "all coordinates", .size = 2 * o->m, .bordered = nh_bordered_create(o)};
+    const nh_model *model = chart->model;
+    *f = (nh_formulation){.name = "all coordinates", .size = 2 * model->m, .bordered = nh_bordered_create(model)};
     f->problem = nh_bordered_flow(f->bordered);
-    sized(f, o->m, chart->scale[0], arena);
-    memcpy(f->z0, chart->z0, o->m * sizeof *f->z0);
-    return nh_dynamics_velocities(chart->dynamics, t, chart->z0, f->z0 + o->m) ||
+    sized(f, model->m, chart->scale[0], arena);
+    memcpy(f->z0, chart->z0, model->m * sizeof *f->z0);
+    return nh_dynamics_velocities(chart->dynamics, t, chart->z0, f->z0 + model->m) ||
            nh_fail(error, NH_NUMERIC, "", "the velocities cannot be found at the initial state");
 }
 
@@ -64,28 +64,28 @@ bool nh_formulation_states(nh_formulation *f, const nh_motion *motion, double *y
 
 /* Is dPhi/dt = sum_j dPhi/dz_j z_j' zero at the probes, relative to the terms of the sum?  Near the end of a chart
  * these are large. */
-static bool is_conserved(const nh_model *o, nh_ex phi)
+static bool is_conserved(const nh_model *model, nh_ex phi)
 {
-    size_t size = o->m + o->n, n = 3 * size + 2;
+    size_t size = model->m + model->n, n = 3 * size + 2;
     nh_ex *e = nh_alloc_array(n, sizeof *e);
     double *value = nh_alloc_array(n, sizeof *value);
-    e[0] = nh_model_gamma(o, phi);
+    e[0] = nh_model_gamma(model, phi);
     e[1] = phi;
     for (size_t j = 0; j < size; j++) {
-        nh_ex z = o->chart->symbol[1 + j], slope = nh_diff(o->dag, phi, z),
-              rate = j < o->m ? o->rho[j] : o->a[j - o->m];
-        e[2 + j] = nh_mul(o->dag, slope, rate);
-        e[2 + size + j] = nh_mul(o->dag, slope, z);
+        nh_ex z = model->chart->symbol[1 + j], slope = nh_diff(model->dag, phi, z),
+              rate = j < model->m ? model->rho[j] : model->a[j - model->m];
+        e[2 + j] = nh_mul(model->dag, slope, rate);
+        e[2 + size + j] = nh_mul(model->dag, slope, z);
         e[2 + 2 * size + j] = rate;
     }
-    nh_tape *tape = nh_model_tape(o, n, e);
+    nh_tape *tape = nh_model_tape(model, n, e);
     nh_tape_work *work = nh_tape_work_create(tape);
-    bool good = o->chart->probes > 0;
-    for (size_t p = 0; p < o->chart->probes && good; p++) {
-        nh_tape_eval(tape, work, o->chart->probe + p * o->chart->width, value);
+    bool good = model->chart->probes > 0;
+    for (size_t p = 0; p < model->chart->probes && good; p++) {
+        nh_tape_eval(tape, work, model->chart->probe + p * model->chart->width, value);
         double terms = 0, own = fabs(value[1]);
         for (size_t j = 0; j < size; j++) terms += fabs(value[2 + j]), own += fabs(value[2 + size + j]);
-        terms += own * nh_programs_pace(o, value + 2 + 2 * size);
+        terms += own * nh_programs_pace(model, value + 2 + 2 * size);
         good = fabs(value[0]) <= conserved * terms;
     }
     nh_tape_work_free(work);
@@ -96,21 +96,21 @@ static bool is_conserved(const nh_model *o, nh_ex phi)
 }
 
 /* Replaces the chart's velocities, implicit ones too, by those of the coordinates. */
-static bool to_coordinates(const nh_model *o, size_t n, const nh_ex *e, nh_ex *out)
+static bool to_coordinates(const nh_model *model, size_t n, const nh_ex *e, nh_ex *out)
 {
-    const nh_chart *c = o->chart;
-    nh_ex *from = nh_alloc_array(o->n + c->implicit + 1, sizeof *from),
-          *to = nh_alloc_array(o->n + c->implicit + 1, sizeof *to);
+    const nh_chart *c = model->chart;
+    nh_ex *from = nh_alloc_array(model->n + c->implicit + 1, sizeof *from),
+          *to = nh_alloc_array(model->n + c->implicit + 1, sizeof *to);
     bool good = !c->quasi || nh_chart_inverse(c, to);
-    for (size_t i = 0; i < o->n; i++) {
+    for (size_t i = 0; i < model->n; i++) {
         from[i] = c->w[i];
         if (!c->quasi) to[i] = c->w[i];
     }
     for (size_t a = 0; a < c->implicit; a++) {
-        from[o->n + a] = c->u[a];
-        to[o->n + a] = o->system->coordinate[c->dependent[a]].v;
+        from[model->n + a] = c->u[a];
+        to[model->n + a] = model->system->coordinate[c->dependent[a]].v;
     }
-    for (size_t k = 0; k < n && good; k++) out[k] = nh_substitute(o->dag, e[k], o->n + c->implicit, from, to);
+    for (size_t k = 0; k < n && good; k++) out[k] = nh_substitute(model->dag, e[k], model->n + c->implicit, from, to);
     nh_free(to);
     nh_free(from);
     return good;
@@ -118,37 +118,37 @@ static bool to_coordinates(const nh_model *o, size_t n, const nh_ex *e, nh_ex *o
 
 static void compile(nh_reference_solution *y, const nh_ex *e)
 {
-    const nh_model *o = y->model;
-    size_t m = o->m, n = y->currents;
+    const nh_model *model = y->model;
+    size_t m = model->m, n = y->currents;
     nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(n * (1 + 2 * m) + 1, sizeof *out);
-    in[0] = o->system->t;
+    in[0] = model->system->t;
     for (size_t s = 0; s < m; s++) {
-        in[1 + s] = o->system->coordinate[s].q;
-        in[1 + m + s] = o->system->coordinate[s].v;
+        in[1 + s] = model->system->coordinate[s].q;
+        in[1 + m + s] = model->system->coordinate[s].v;
     }
     for (size_t k = 0; k < n; k++) {
         out[k] = e[k];
-        for (size_t j = 0; j < 2 * m; j++) out[n + k * 2 * m + j] = nh_diff(o->dag, e[k], in[1 + j]);
+        for (size_t j = 0; j < 2 * m; j++) out[n + k * 2 * m + j] = nh_diff(model->dag, e[k], in[1 + j]);
     }
-    y->tape = nh_tape_create(o->dag, 1 + 2 * m, in, n * (1 + 2 * m), out, o->system->parameters, o->parameter,
-                             o->parameter_value);
+    y->tape = nh_tape_create(model->dag, 1 + 2 * m, in, n * (1 + 2 * m), out, model->system->parameters,
+                             model->parameter, model->parameter_value);
     nh_free(in);
     nh_free(out);
 }
 
 /* Is b a multiple of a at the probes? */
-static bool same_current(const nh_model *o, nh_ex a, nh_ex b)
+static bool same_current(const nh_model *model, nh_ex a, nh_ex b)
 {
     nh_ex *e;
-    size_t n = nh_terms_of(o->dag, b, &e);
+    size_t n = nh_terms_of(model->dag, b, &e);
     e = nh_realloc_array(e, n + 1, sizeof *e);
     e[n] = a;
     double *value = nh_alloc_array(n + 1, sizeof *value), ratio = NAN;
-    nh_tape *tape = nh_model_tape(o, n + 1, e);
+    nh_tape *tape = nh_model_tape(model, n + 1, e);
     nh_tape_work *work = nh_tape_work_create(tape);
     bool same = true;
-    for (size_t p = 0; p < o->chart->probes && same; p++) {
-        nh_tape_eval(tape, work, o->chart->probe + p * o->chart->width, value);
+    for (size_t p = 0; p < model->chart->probes && same; p++) {
+        nh_tape_eval(tape, work, model->chart->probe + p * model->chart->width, value);
         if (p == 0) ratio = value[0] / value[n];
         double terms = 0;
         for (size_t i = 0; i < n; i++) terms += fabs(value[i]);
@@ -164,24 +164,24 @@ static bool same_current(const nh_model *o, nh_ex a, nh_ex b)
 size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena, const char **varying)
 {
     size_t others = 0;
-    const nh_model *o = y->model;
-    const nh_system *s = o->system;
+    const nh_model *model = y->model;
+    const nh_system *system = model->system;
     nh_error ignored;
     nh_error_clear(&ignored);
-    y->current = nh_arena_alloc(arena, (s->currents + 1) * sizeof *y->current);
-    y->name = nh_arena_alloc(arena, (s->currents + 1) * sizeof *y->name);
-    nh_ex *e = nh_alloc_array(s->currents + 1, sizeof *e);
-    for (size_t k = 0; k <= s->currents; k++) {
-        nh_ex phi = o->E;
-        if (k && s->current[k - 1].unwatched) continue;
-        if (k && !nh_analysis_file_to_chart(o, s->current[k - 1].value, &phi, &ignored)) continue;
-        if (k && y->currents && y->current[0] == o->E && same_current(o, o->E, phi)) continue;
-        if (!is_conserved(o, phi)) {
-            if (k) varying[others++] = s->current[k - 1].name;
+    y->current = nh_arena_alloc(arena, (system->currents + 1) * sizeof *y->current);
+    y->name = nh_arena_alloc(arena, (system->currents + 1) * sizeof *y->name);
+    nh_ex *e = nh_alloc_array(system->currents + 1, sizeof *e);
+    for (size_t k = 0; k <= system->currents; k++) {
+        nh_ex phi = model->E;
+        if (k && system->current[k - 1].unwatched) continue;
+        if (k && !nh_analysis_file_to_chart(model, system->current[k - 1].value, &phi, &ignored)) continue;
+        if (k && y->currents && y->current[0] == model->E && same_current(model, model->E, phi)) continue;
+        if (!is_conserved(model, phi)) {
+            if (k) varying[others++] = system->current[k - 1].name;
             continue;
         }
-        if (!to_coordinates(o, 1, &phi, &e[y->currents])) continue;
-        y->name[y->currents] = k ? s->current[k - 1].name : "E";
+        if (!to_coordinates(model, 1, &phi, &e[y->currents])) continue;
+        y->name[y->currents] = k ? system->current[k - 1].name : "E";
         y->current[y->currents++] = phi;
     }
     compile(y, e);
@@ -191,10 +191,10 @@ size_t nh_reference_solution_currents(nh_reference_solution *y, nh_arena *arena,
 
 /* The size of a coordinate or velocity in a current.  An angle that grows by full turns does not count as larger:
  * otherwise its drift would appear smaller and smaller. */
-static double size_of(const nh_model *o, size_t j, double y, double least)
+static double size_of(const nh_model *model, size_t j, double y, double least)
 {
     double size = fmax(fabs(y), least);
-    return j < o->m && o->system->coordinate[j].type == NH_ANGLE ? fmin(size, 1) : size;
+    return j < model->m && model->system->coordinate[j].type == NH_ANGLE ? fmin(size, 1) : size;
 }
 
 /* The size of a current is that of its parts: |Phi| and |dPhi/dy_j y_j|, y_j not below its least size. */

@@ -184,30 +184,30 @@ static void map_angle(nh_robustness_work *w, const char *name, size_t coordinate
     }
 }
 
-static size_t angles_of(const nh_system *s, bool charts)
+static size_t angles_of(const nh_system *system, bool charts)
 {
     size_t n = 0;
-    for (size_t i = 0; i < s->coordinates && charts; i++) n += s->coordinate[i].type == NH_ANGLE;
+    for (size_t i = 0; i < system->coordinates && charts; i++) n += system->coordinate[i].type == NH_ANGLE;
     return n;
 }
 
 static bool all_maps(nh_robustness_work *w, const nh_benchmark_work *plain, nh_error *error)
 {
-    const nh_system *s = plain->out->question->system;
+    const nh_system *system = plain->out->question->system;
     bool charts = plain->formulations == NH_BENCHMARK_FORMULATIONS || (!plain->model->chart->quasi && plain->model->k);
-    size_t parameters = s->parameters < most_parameters ? s->parameters : most_parameters,
-           angles = angles_of(s, charts);
-    w->out->map = nh_arena_alloc(w->out->arena, (3 + s->robustness_maps + parameters + angles + NH_ROBUSTNESS_FITS) *
-                                                    sizeof *w->out->map);
+    size_t parameters = system->parameters < most_parameters ? system->parameters : most_parameters,
+           angles = angles_of(system, charts);
+    w->out->map = nh_arena_alloc(
+        w->out->arena, (3 + system->robustness_maps + parameters + angles + NH_ROBUSTNESS_FITS) * sizeof *w->out->map);
     w->values_left = longer_times + sizeof absolute / sizeof *absolute +
                      parameters * (sizeof parameter / sizeof *parameter) + angles * most_values + longer_by_steps;
     nh_robustness_fits(w, plain);
-    for (size_t i = 0; i < s->robustness_maps; i++)
-        if (!nh_robustness_named(w, plain, &s->robustness_map[i], error)) return false;
+    for (size_t i = 0; i < system->robustness_maps; i++)
+        if (!nh_robustness_named(w, plain, &system->robustness_map[i], error)) return false;
     map_absolute(w);
-    for (size_t i = 0; i < s->coordinates && angles; i++)
-        if (s->coordinate[i].type == NH_ANGLE) map_angle(w, s->coordinate[i].name, i);
-    for (size_t i = 0; i < parameters; i++) map_parameter(w, s->parameter[i].name, s->parameter[i].value);
+    for (size_t i = 0; i < system->coordinates && angles; i++)
+        if (system->coordinate[i].type == NH_ANGLE) map_angle(w, system->coordinate[i].name, i);
+    for (size_t i = 0; i < parameters; i++) map_parameter(w, system->parameter[i].name, system->parameter[i].value);
     double begin = plain->out->begin, end = plain->out->end;
     map_time(w, "long times by fixed steps", longer_by_steps,
              fabs(end - begin) / (4 * w->request->options.benchmark_steps), begin, end);
@@ -218,16 +218,17 @@ static bool all_maps(nh_robustness_work *w, const nh_benchmark_work *plain, nh_e
 /* "samples": the maps of the discrete problem; otherwise the name of a map of the system file, or ranges. */
 static bool one_map(nh_robustness_work *w, const nh_benchmark_work *plain, const char *over, nh_error *error)
 {
-    const nh_system *s = plain->out->question->system;
+    const nh_system *system = plain->out->question->system;
     w->out->map = nh_arena_alloc(w->out->arena, NH_ROBUSTNESS_FITS * sizeof *w->out->map);
     if (!strcmp(over, "samples")) return nh_robustness_fits(w, plain), true;
-    for (size_t i = 0; i < s->robustness_maps; i++)
-        if (!strcmp(over, s->robustness_map[i].name))
-            return nh_robustness_named(w, plain, &s->robustness_map[i], error);
-    if (!s->robustness_maps || strchr(over, '=')) return nh_robustness_axes(w, plain, w->request, NULL, over, error);
+    for (size_t i = 0; i < system->robustness_maps; i++)
+        if (!strcmp(over, system->robustness_map[i].name))
+            return nh_robustness_named(w, plain, &system->robustness_map[i], error);
+    if (!system->robustness_maps || strchr(over, '='))
+        return nh_robustness_axes(w, plain, w->request, NULL, over, error);
     nh_fail(error, NH_USAGE, "", "--over `%s` is neither a range nor a robustness map of this system", over);
     return nh_error_hint(error, "--over \"NAME=LOW:HIGH\", or one of its maps, such as --over \"%s\"",
-                         s->robustness_map[0].name);
+                         system->robustness_map[0].name);
 }
 
 nh_robustness *nh_robustness_create(const nh_request *request, const char *over, double budget, nh_error *error)

@@ -50,14 +50,15 @@ static bool read_axis(nh_arena *arena, const char *text, axis *a, nh_error *erro
 /* A parameter, part of the initial state, or an option. */
 static bool know(const nh_benchmark_work *plain, const nh_request *request, axis *a, nh_error *error)
 {
-    const nh_model *o = plain->model;
-    const nh_system *s = o->system;
-    for (size_t i = 0; i < s->parameters; i++)
-        if (!strcmp(a->name, s->parameter[i].name)) return true; /* AXIS_PARAMETER */
+    const nh_model *model = plain->model;
+    const nh_system *system = model->system;
+    for (size_t i = 0; i < system->parameters; i++)
+        if (!strcmp(a->name, system->parameter[i].name)) return true; /* AXIS_PARAMETER */
     bool initial = false;
-    for (size_t i = 0; i < s->coordinates; i++)
-        initial |= !strcmp(a->name, s->coordinate[i].name) || !strcmp(a->name, nh_name_of(o->dag, s->coordinate[i].v));
-    for (size_t i = 0; i < o->n; i++) initial |= !strcmp(a->name, nh_name_of(o->dag, o->chart->w[i]));
+    for (size_t i = 0; i < system->coordinates; i++)
+        initial |= !strcmp(a->name, system->coordinate[i].name) ||
+                   !strcmp(a->name, nh_name_of(model->dag, system->coordinate[i].v));
+    for (size_t i = 0; i < model->n; i++) initial |= !strcmp(a->name, nh_name_of(model->dag, model->chart->w[i]));
     a->kind = initial ? AXIS_INITIAL : AXIS_OPTION;
     if (initial && request->initial) return true;
     if (initial) {

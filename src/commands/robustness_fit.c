@@ -304,16 +304,16 @@ static size_t with_neighbour(fit *f, double part, nh_ex *e)
 /* The velocities times 1 and sines and cosines of two frequencies; 0 without an angle. */
 static size_t with_frequencies(fit *f, double part, nh_ex *e)
 {
-    const nh_model *o = f->model;
-    nh_dag *d = o->dag;
+    const nh_model *model = f->model;
+    nh_dag *d = model->dag;
     size_t n = 0, wave = 0;
-    while (wave < o->m && !nh_fit_is_wave(o, o->system->coordinate[wave].q)) wave++;
-    if (wave == o->m) return 0;
-    nh_ex q = o->system->coordinate[wave].q, other = nh_mul(d, nh_real(d, 1 + part), q);
+    while (wave < model->m && !nh_fit_is_wave(model, model->system->coordinate[wave].q)) wave++;
+    if (wave == model->m) return 0;
+    nh_ex q = model->system->coordinate[wave].q, other = nh_mul(d, nh_real(d, 1 + part), q);
     nh_ex factor[] = {nh_int(d, 1), nh_call(d, NH_SIN, q), nh_call(d, NH_COS, q), nh_call(d, NH_SIN, other),
                       nh_call(d, NH_COS, other)};
-    for (size_t i = 0; i < o->n; i++)
-        for (size_t k = 0; k < sizeof factor / sizeof *factor; k++) e[n++] = nh_mul(d, o->chart->w[i], factor[k]);
+    for (size_t i = 0; i < model->n; i++)
+        for (size_t k = 0; k < sizeof factor / sizeof *factor; k++) e[n++] = nh_mul(d, model->chart->w[i], factor[k]);
     return n;
 }
 

@@ -100,13 +100,13 @@ static bool read_list(nh_arena *arena, const char *text, nh_scan_axis *a, nh_err
 
 static bool is_parameter(const nh_scan *x, const char *name, nh_error *error)
 {
-    const nh_system *s = x->system;
+    const nh_system *system = x->system;
     for (size_t i = 0; i < x->axes; i++)
         if (!strcmp(name, x->axis[i].name)) return nh_fail(error, NH_USAGE, "", "--over names `%s` twice", name);
-    for (size_t i = 0; i < s->parameters; i++)
-        if (!strcmp(s->parameter[i].name, name)) return true;
-    nh_fail(error, NH_USAGE, "", "`%s` is not a parameter of %s", name, s->name);
-    return nh_system_hint_parameters(s, name, error);
+    for (size_t i = 0; i < system->parameters; i++)
+        if (!strcmp(system->parameter[i].name, name)) return true;
+    nh_fail(error, NH_USAGE, "", "`%s` is not a parameter of %s", name, system->name);
+    return nh_system_hint_parameters(system, name, error);
 }
 
 bool nh_scan_read_axis(nh_arena *arena, const char *text, nh_scan_axis *out, nh_error *error)

@@ -20,12 +20,12 @@ static const double repeated = 0.1; /* seconds: shorter comparisons are repeated
 /* "y, T = m/2*v^2" */
 static bool read_watch(nh_simulation *s, const char *typed, nh_error *error)
 {
-    const nh_model *o = s->model;
+    const nh_model *model = s->model;
     nh_ex taken;
     nh_named extra[2];
     size_t extras = 0;
-    if (!nh_symbol_find(o->dag, "E", &taken)) extra[extras++] = (nh_named){.name = "E", .value = o->E};
-    if (!nh_symbol_find(o->dag, "Lbar", &taken)) extra[extras++] = (nh_named){.name = "Lbar", .value = o->Lbar};
+    if (!nh_symbol_find(model->dag, "E", &taken)) extra[extras++] = (nh_named){.name = "E", .value = model->E};
+    if (!nh_symbol_find(model->dag, "Lbar", &taken)) extra[extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
     for (const char *text = typed, *end; *text; text = end + (*end != 0)) {
         end = text + nh_text_entry(text, ",;");
         const char *equal = memchr(text, '=', (size_t)(end - text)), *to = equal ? equal : end;
@@ -36,7 +36,7 @@ static bool read_watch(nh_simulation *s, const char *typed, nh_error *error)
         if (!nh_system_expression_part(s->system, "--watch", typed, (size_t)(right - typed), (size_t)(end - right),
                                        extras, extra, &e, error))
             return false;
-        if (!nh_analysis_file_to_chart(o, e, &e, error)) return false;
+        if (!nh_analysis_file_to_chart(model, e, &e, error)) return false;
         nh_observables_add(&s->columns, nh_deck_spelled_all(s->arena, name), NH_TRACK_WATCH, e);
     }
     if (s->columns.count) return true;
@@ -54,7 +54,7 @@ static bool read_scene(nh_simulation *s, nh_error *error)
 
 static void list_columns(nh_simulation *s, const char *also, bool draw)
 {
-    const nh_model *o = s->model;
+    const nh_model *model = s->model;
     nh_observables *t = &s->columns;
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -62,16 +62,16 @@ static void list_columns(nh_simulation *s, const char *also, bool draw)
     for (size_t k = 0; k < s->system->currents; k++) {
         const nh_named *known = &s->system->current[k];
         nh_ex e;
-        if (!known->unwatched && nh_analysis_file_to_chart(o, known->value, &e, &ignored))
+        if (!known->unwatched && nh_analysis_file_to_chart(model, known->value, &e, &ignored))
             nh_observables_add(t, known->name, NH_TRACK_CURRENT, e);
     }
-    for (size_t a = 0; a < o->k; a++)
-        nh_observables_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, o->mu[a]);
-    nh_observables_add(t, "E", NH_TRACK_ENERGY, o->E);
+    for (size_t a = 0; a < model->k; a++)
+        nh_observables_add(t, nh_arena_printf(s->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, model->mu[a]);
+    nh_observables_add(t, "E", NH_TRACK_ENERGY, model->E);
     nh_observables_add_watches(t, s->analysis);
     nh_ex e;
     if (also && nh_system_expression_text(s->system, "", also, 0, NULL, &e, &ignored) &&
-        nh_analysis_file_to_chart(o, e, &e, &ignored))
+        nh_analysis_file_to_chart(model, e, &e, &ignored))
         nh_observables_add(t, "Phi", NH_TRACK_WATCH, e);
     if (draw) nh_observables_add_drawing(t, s->analysis);
 }

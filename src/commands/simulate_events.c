@@ -38,29 +38,29 @@ static bool read_word(nh_simulation *s, const char *option, piece p, nh_simulate
 
 static bool part(nh_simulation *s, const char *option, const char *typed, piece p, nh_ex *out, nh_error *error)
 {
-    const nh_model *o = s->model;
+    const nh_model *model = s->model;
     nh_ex taken;
     nh_named extra[2];
     size_t extras = 0;
-    if (!nh_symbol_find(o->dag, "E", &taken)) extra[extras++] = (nh_named){.name = "E", .value = o->E};
-    if (!nh_symbol_find(o->dag, "Lbar", &taken)) extra[extras++] = (nh_named){.name = "Lbar", .value = o->Lbar};
+    if (!nh_symbol_find(model->dag, "E", &taken)) extra[extras++] = (nh_named){.name = "E", .value = model->E};
+    if (!nh_symbol_find(model->dag, "Lbar", &taken)) extra[extras++] = (nh_named){.name = "Lbar", .value = model->Lbar};
     return nh_system_expression_part(s->system, option, typed, (size_t)(p.from - typed), p.length, extras, extra, out,
                                      error) &&
-           nh_analysis_file_to_chart(o, *out, out, error);
+           nh_analysis_file_to_chart(model, *out, out, error);
 }
 
 /* "y", or "y = x" for y - x */
 static bool read_zero(nh_simulation *s, const char *option, const char *typed, piece p, nh_ex *out, nh_error *error)
 {
-    const nh_model *o = s->model;
+    const nh_model *model = s->model;
     const char *equal = memchr(p.from, '=', p.length);
-    nh_ex left, right = nh_int(o->dag, 0);
+    nh_ex left, right = nh_int(model->dag, 0);
     if (!part(s, option, typed, equal ? trimmed(p.from, equal) : p, &left, error) ||
         (equal && !part(s, option, typed, trimmed(equal + 1, p.from + p.length), &right, error)))
         return false;
-    *out = nh_sub(o->dag, left, right);
+    *out = nh_sub(model->dag, left, right);
     bool changes = false;
-    for (size_t i = 0; i < o->width; i++) changes |= nh_depends(o->dag, *out, o->chart->symbol[i]);
+    for (size_t i = 0; i < model->width; i++) changes |= nh_depends(model->dag, *out, model->chart->symbol[i]);
     if (changes) return true;
     nh_fail(error, NH_USAGE, "", "%s: `%.*s` never changes along a motion", option, (int)p.length, p.from);
     return nh_error_hint(error,
@@ -152,18 +152,18 @@ static bool is_column_of(const nh_simulation *s, size_t k, nh_ex e)
  * coordinate that the section leaves free, and its velocity. */
 static void choose_axes(nh_simulation *s, const nh_request *q)
 {
-    const nh_model *o = s->model;
+    const nh_model *model = s->model;
     const nh_simulated_event *section = &s->event[s->events - 1];
     s->axis[0] = q->section ? 0 : NH_AXIS_TIME;
     s->axis[1] = 0;
     if (!q->section) return;
     s->axis[1] = s->columns.count > 1;
-    for (size_t i = 0; i < o->m && !q->watch && !q->scene; i++) {
-        nh_ex coordinate = o->system->coordinate[i].q;
+    for (size_t i = 0; i < model->m && !q->watch && !q->scene; i++) {
+        nh_ex coordinate = model->system->coordinate[i].q;
         size_t at = s->columns.count;
         for (size_t k = s->columns.count; k-- > 0;)
-            if (is_column_of(s, k, o->rho[i])) at = k;
-        if (nh_depends(o->dag, section->event.e, coordinate) || at == s->columns.count ||
+            if (is_column_of(s, k, model->rho[i])) at = k;
+        if (nh_depends(model->dag, section->event.e, coordinate) || at == s->columns.count ||
             !is_column_of(s, i, coordinate))
             continue;
         s->axis[0] = (int)i;

@@ -34,15 +34,15 @@ static bool resolve(nh_simulation *s, const nh_request *q, nh_analysis_file **ow
 /* "`dependent: [x, y]` does not follow .." */
 static const char *words_chosen(const nh_simulation *s, const size_t *dependent)
 {
-    const nh_model *o = s->model;
+    const nh_model *model = s->model;
     bool same = true;
     nh_text words;
     nh_text_init(&words);
-    for (size_t a = 0; a < o->k; a++) {
+    for (size_t a = 0; a < model->k; a++) {
         bool named = false;
-        for (size_t b = 0; b < o->k; b++) named |= s->system->dependent[b] == dependent[a];
+        for (size_t b = 0; b < model->k; b++) named |= s->system->dependent[b] == dependent[a];
         same = same && named;
-        nh_text_addf(&words, "%s%s'", a ? ", " : "", o->system->coordinate[dependent[a]].name);
+        nh_text_addf(&words, "%s%s'", a ? ", " : "", model->system->coordinate[dependent[a]].name);
     }
     const char *out = nh_arena_printf(s->arena,
                                       "at the initial state the constraints do not determine the velocities under "
@@ -56,19 +56,19 @@ static const char *words_chosen(const nh_simulation *s, const size_t *dependent)
  * chart do not follow from the constraints there, or its formulas are 0/0. */
 static bool needs_other_chart(nh_simulation *s, const nh_state *at)
 {
-    const nh_model *o = s->model;
-    size_t *dependent = nh_arena_alloc(s->arena, (o->m + 1) * sizeof *dependent);
-    double *start = nh_arena_alloc(s->arena, (1 + 2 * o->m) * sizeof *start);
-    if (nh_dynamics_other_branch(o, at)) {
-        s->system->branch = -o->chart->branch;
+    const nh_model *model = s->model;
+    size_t *dependent = nh_arena_alloc(s->arena, (model->m + 1) * sizeof *dependent);
+    double *start = nh_arena_alloc(s->arena, (1 + 2 * model->m) * sizeof *start);
+    if (nh_dynamics_other_branch(model, at)) {
+        s->system->branch = -model->chart->branch;
         return true;
     }
     start[0] = at->t;
-    memcpy(start + 1, at->q, o->m * sizeof *start);
-    if (!nh_dynamics_other_dependents(o, at, dependent, start + 1 + o->m)) return false;
+    memcpy(start + 1, at->q, model->m * sizeof *start);
+    if (!nh_dynamics_other_dependents(model, at, dependent, start + 1 + model->m)) return false;
     if (s->system->dependents) s->chosen = words_chosen(s, dependent);
     s->system->dependent = dependent;
-    s->system->dependents = o->k;
+    s->system->dependents = model->k;
     s->system->start = start;
     return true;
 }
@@ -104,20 +104,20 @@ static const char *words_of_point(const nh_simulation *s, const double *z)
  * possible. */
 static bool choose_initial(nh_simulation *s, nh_state *initial)
 {
-    const nh_model *o = s->model;
-    if (!o->chart->probes) return false;
-    double *z = nh_arena_alloc(s->arena, o->width * sizeof *z);
-    *initial = (nh_state){.q = nh_arena_alloc(s->arena, o->m * sizeof(double)),
-                          .v = nh_arena_alloc(s->arena, o->m * sizeof(double))};
-    memcpy(z, o->chart->probe, o->width * sizeof *z);
-    if (!nh_first_state(o, z, initial->v)) return false;
+    const nh_model *model = s->model;
+    if (!model->chart->probes) return false;
+    double *z = nh_arena_alloc(s->arena, model->width * sizeof *z);
+    *initial = (nh_state){.q = nh_arena_alloc(s->arena, model->m * sizeof(double)),
+                          .v = nh_arena_alloc(s->arena, model->m * sizeof(double))};
+    memcpy(z, model->chart->probe, model->width * sizeof *z);
+    if (!nh_first_state(model, z, initial->v)) return false;
     initial->t = z[0];
-    memcpy(initial->q, z + 1, o->m * sizeof(double));
+    memcpy(initial->q, z + 1, model->m * sizeof(double));
     nh_simulate_assemble(s, initial);
     if (s->assembled) { /* the probe satisfies the constraints between velocities alone */
         s->assembled = NULL;
-        memcpy(z + 1, initial->q, o->m * sizeof(double));
-        if (!nh_first_state(o, z, initial->v)) return false;
+        memcpy(z + 1, initial->q, model->m * sizeof(double));
+        if (!nh_first_state(model, z, initial->v)) return false;
     }
     s->begin = words_of_point(s, z);
     return true;

@@ -8,10 +8,10 @@
 
 typedef enum { COLUMN_STATE, COLUMN_PARAMETER } column_kind;
 
-static bool is_parameter(const nh_system *s, const char *name)
+static bool is_parameter(const nh_system *system, const char *name)
 {
-    for (size_t i = 0; i < s->parameters; i++)
-        if (!strcmp(s->parameter[i].name, name)) return true;
+    for (size_t i = 0; i < system->parameters; i++)
+        if (!strcmp(system->parameter[i].name, name)) return true;
     return false;
 }
 
@@ -23,21 +23,22 @@ static const char *names_of(nh_arena *arena, const char *const *names, size_t n)
 }
 
 /* Is it a coordinate, a velocity or the time?  Otherwise an error with a suggestion. */
-static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *s, const char *name, nh_error *error)
+static bool is_state(nh_arena *arena, const nh_table *t, const nh_system *system, const char *name, nh_error *error)
 {
     size_t n = 0;
-    const char **names = nh_arena_alloc(arena, (2 * s->coordinates + s->quasi + s->parameters + 1) * sizeof *names);
+    const char **names =
+        nh_arena_alloc(arena, (2 * system->coordinates + system->quasi + system->parameters + 1) * sizeof *names);
     names[n++] = "t";
-    for (size_t i = 0; i < s->coordinates; i++) names[n++] = s->coordinate[i].name;
-    for (size_t i = 0; i < s->coordinates; i++) names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
-    for (size_t i = 0; i < s->quasi; i++) names[n++] = nh_name_of(s->dag, s->quasi_velocity[i]);
+    for (size_t i = 0; i < system->coordinates; i++) names[n++] = system->coordinate[i].name;
+    for (size_t i = 0; i < system->coordinates; i++) names[n++] = nh_name_of(system->dag, system->coordinate[i].v);
+    for (size_t i = 0; i < system->quasi; i++) names[n++] = nh_name_of(system->dag, system->quasi_velocity[i]);
     for (size_t i = 0; i < n; i++)
         if (!strcmp(names[i], name)) return true;
-    for (size_t i = 0; i < s->parameters; i++) names[n++] = s->parameter[i].name;
+    for (size_t i = 0; i < system->parameters; i++) names[n++] = system->parameter[i].name;
     bool option = !strncmp(t->path, "--", 2); /* --over makes a table, too */
     nh_fail(error, option ? NH_USAGE : NH_INPUT, t->path, "%s`%s` is not a coordinate, velocity or parameter of %s",
-            option ? "" : "the column ", name, s->name);
-    const char *near = nh_text_nearest(name, names, n), *q = nh_system_velocity_meant(s, name, near);
+            option ? "" : "the column ", name, system->name);
+    const char *near = nh_text_nearest(name, names, n), *q = nh_system_velocity_meant(system, name, near);
     if (q) return nh_error_hint(error, NH_VELOCITY_IS_WRITTEN, q, q);
     return near ? nh_error_hint(error, "did you mean `%s`?", near)
                 : nh_error_hint(error, "it has %s", names_of(arena, names, n));
@@ -88,21 +89,22 @@ bool nh_simulate_rows_read(nh_arena *arena, const nh_request *q, const char *pat
                            nh_error *error)
 {
     nh_table *t = nh_table_read(arena, path, error);
-    nh_system *s = t ? nh_system_read(q->system_path, q->settings, q->setting, error) : NULL;
-    if (!s) return false;
+    nh_system *system = t ? nh_system_read(q->system_path, q->settings, q->setting, error) : NULL;
+    if (!system) return false;
     const char **name = nh_arena_alloc(arena, t->columns * sizeof *name);
     column_kind *kind = nh_arena_alloc(arena, t->columns * sizeof *kind);
     bool good = true;
     *out = (nh_simulate_rows){.row = nh_arena_alloc(arena, t->rows * sizeof *out->row)};
     for (size_t j = 0; j < t->columns && good; j++) {
-        name[j] = nh_arena_strdup(arena, nh_system_state_name(s, t->name[j])); /* the system goes before the table */
-        bool own = is_parameter(s, name[j]) || nh_system_coordinate(s, name[j]) >= 0;
+        name[j] =
+            nh_arena_strdup(arena, nh_system_state_name(system, t->name[j])); /* the system goes before the table */
+        bool own = is_parameter(system, name[j]) || nh_system_coordinate(system, name[j]) >= 0;
         if (!own && nh_table_is_time(name[j])) name[j] = "t";
-        kind[j] = is_parameter(s, name[j]) ? COLUMN_PARAMETER : COLUMN_STATE;
+        kind[j] = is_parameter(system, name[j]) ? COLUMN_PARAMETER : COLUMN_STATE;
         out->parameters += kind[j] == COLUMN_PARAMETER;
-        if (kind[j] == COLUMN_STATE) good = is_state(arena, t, s, name[j], error);
+        if (kind[j] == COLUMN_STATE) good = is_state(arena, t, system, name[j], error);
     }
-    nh_system_free(s);
+    nh_system_free(system);
     for (; out->count < t->rows && good; out->count++)
         good = read_row(arena, q->initial, t, out->count, name, kind, &out->row[out->count], error);
     return good;

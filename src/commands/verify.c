@@ -134,19 +134,19 @@ static bool accepts(const nh_proof *proof, double residual, const nh_options *op
 static bool excludes_zero(nh_verification *v, const nh_points *points, size_t n, const nh_ex *term)
 {
     enum { least_bits = 256, most_bits = 1 << 14, tried = 3 };
-    const nh_model *o = v->model;
-    nh_ex sum = nh_int(o->dag, 0);
-    for (size_t j = 0; j < n; j++) sum = nh_add(o->dag, sum, term[j]);
-    sum = nh_model_values(o, sum);
-    if (!nh_is_exact(o->dag, sum) || nh_declared_unspecified(o->dag)) return false;
-    double *z = nh_arena_alloc(v->arena, o->width * sizeof *z), radius;
+    const nh_model *model = v->model;
+    nh_ex sum = nh_int(model->dag, 0);
+    for (size_t j = 0; j < n; j++) sum = nh_add(model->dag, sum, term[j]);
+    sum = nh_model_values(model, sum);
+    if (!nh_is_exact(model->dag, sum) || nh_declared_unspecified(model->dag)) return false;
+    double *z = nh_arena_alloc(v->arena, model->width * sizeof *z), radius;
     bool excluded = false;
     for (long bits = least_bits; bits <= most_bits && !excluded && !nh_interrupted(); bits *= 4) {
-        nh_ball *ball = nh_ball_create(o->dag, bits);
-        nh_exact_parameters(o, ball);
+        nh_ball *ball = nh_ball_create(model->dag, bits);
+        nh_exact_parameters(model, ball);
         for (size_t p = 0; p < points->count && p < tried && !excluded; p++) {
-            for (size_t j = 0; j < o->width; j++) z[j] = points->column[j][p];
-            excluded = nh_exact_at(o, ball, z) && nh_ball_excludes_zero(ball, sum);
+            for (size_t j = 0; j < model->width; j++) z[j] = points->column[j][p];
+            excluded = nh_exact_at(model, ball, z) && nh_ball_excludes_zero(ball, sum);
         }
         if (excluded && !nh_ball_value(ball, sum, &v->rate, &radius)) v->rate = NAN;
         nh_ball_free(ball);
@@ -171,17 +171,17 @@ bool nh_verification_vanishes(nh_verification *v, const nh_points *points, size_
  * it is written. */
 static bool is_constant(const nh_verification *v, const nh_points *generic, const nh_options *options)
 {
-    const nh_model *o = v->model;
+    const nh_model *model = v->model;
     nh_independence kind;
     nh_ex phi = v->current, slope = 0;
     bool proved = true;
-    for (size_t j = 0; j < 1 + o->m + o->n && proved; j++) {
-        slope = nh_diff(o->dag, phi, o->chart->symbol[j]);
-        proved = nh_normal_is_zero(o->dag, slope, (size_t)options->proof_terms) == NH_ZERO;
+    for (size_t j = 0; j < 1 + model->m + model->n && proved; j++) {
+        slope = nh_diff(model->dag, phi, model->chart->symbol[j]);
+        proved = nh_normal_is_zero(model->dag, slope, (size_t)options->proof_terms) == NH_ZERO;
     }
     if (proved) return true;
     nh_verification own = *v; /* v keeps its counterexample */
-    nh_independence_test(o, generic, 1, &phi, NULL, options->sure, options->doubt, &kind, NULL);
+    nh_independence_test(model, generic, 1, &phi, NULL, options->sure, options->doubt, &kind, NULL);
     return kind == NH_CONSTANT && !excludes_zero(&own, generic, 1, &slope);
 }
 

@@ -173,17 +173,17 @@ static void take_expression(const nh_jet_equations *x, nh_letters *l, nh_ex e, d
 /* ---- the determinant of the inertia ---- */
 
 /* The determinant of the rows from `row` on and the columns that are not used yet. */
-static nh_ex minor_of(const nh_model *o, size_t row, uint32_t used)
+static nh_ex minor_of(const nh_model *model, size_t row, uint32_t used)
 {
-    if (row == o->n) return nh_int(o->dag, 1);
-    nh_ex sum = nh_int(o->dag, 0);
+    if (row == model->n) return nh_int(model->dag, 1);
+    nh_ex sum = nh_int(model->dag, 0);
     bool minus = false;
-    for (size_t j = 0; j < o->n; j++) {
+    for (size_t j = 0; j < model->n; j++) {
         if (used >> j & 1) continue;
-        nh_ex term = o->M[row * o->n + j];
-        if (!nh_is_zero(o->dag, term)) {
-            term = nh_mul(o->dag, term, minor_of(o, row + 1, used | (uint32_t)1 << j));
-            sum = minus ? nh_sub(o->dag, sum, term) : nh_add(o->dag, sum, term);
+        nh_ex term = model->M[row * model->n + j];
+        if (!nh_is_zero(model->dag, term)) {
+            term = nh_mul(model->dag, term, minor_of(model, row + 1, used | (uint32_t)1 << j));
+            sum = minus ? nh_sub(model->dag, sum, term) : nh_add(model->dag, sum, term);
         }
         minus = !minus;
     }
@@ -246,8 +246,9 @@ static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool
 
 static void take_determinant(const nh_jet_equations *x, nh_letters *l)
 {
-    const nh_model *o = x->model;
-    if (o->n <= largest_inertia) take_factors(x, l, nh_simplify_short(x->dag, minor_of(o, 0, 0), largest_form), false);
+    const nh_model *model = x->model;
+    if (model->n <= largest_inertia)
+        take_factors(x, l, nh_simplify_short(x->dag, minor_of(model, 0, 0), largest_form), false);
 }
 
 /* The momenta of a frame in which the inertia is 1 have roots of the inertia: exp(u/2) where the inertia has exp(u).
@@ -314,11 +315,11 @@ static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_
 static void take_potential(const nh_jet_equations *x, nh_letters *l)
 {
     static const double most = 2;
-    const nh_model *o = x->model;
+    const nh_model *model = x->model;
     nh_dag *d = x->dag;
     nh_ex *zero = nh_alloc_array(x->n + 1, sizeof *zero);
     for (size_t i = 0; i < x->n; i++) zero[i] = nh_int(d, 0);
-    nh_ex *term, V = nh_substitute(d, o->Lbar, x->n, x->w, zero);
+    nh_ex *term, V = nh_substitute(d, model->Lbar, x->n, x->w, zero);
     size_t terms = nh_terms_of(d, V, &term);
     for (size_t i = 0; i < terms; i++) {
         if (nh_kind_of(d, term[i]) != NH_PRODUCT) continue;
@@ -386,20 +387,20 @@ static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, c
 
 nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_rates *rates)
 {
-    const nh_model *o = x->model;
+    const nh_model *model = x->model;
     nh_letters l = {0};
     size_t n = 0;
-    nh_ex *e = nh_alloc_array(o->m + o->n * o->n + o->n + 2, sizeof *e);
-    e[n++] = o->Lbar;
-    for (size_t s = 0; s < o->m; s++) e[n++] = o->rho[s];
-    for (size_t i = 0; i < o->n * o->n; i++) e[n++] = o->M[i];
-    for (size_t i = 0; i < o->n; i++) e[n++] = o->A[i];
+    nh_ex *e = nh_alloc_array(model->m + model->n * model->n + model->n + 2, sizeof *e);
+    e[n++] = model->Lbar;
+    for (size_t s = 0; s < model->m; s++) e[n++] = model->rho[s];
+    for (size_t i = 0; i < model->n * model->n; i++) e[n++] = model->M[i];
+    for (size_t i = 0; i < model->n; i++) e[n++] = model->A[i];
     for (size_t k = 0; k < x->coordinates; k++)
         if (has_powers(rates, x->coordinate[k]) && (secular || !only_inside(x, n, e, x->coordinate[k])))
             letter_of(&l, NH_LETTER_POWER, x->coordinate[k]);
     size_t coordinates = l.count;
     /* the last are forces: derivatives, whose exponents are one lower */
-    for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + o->n < n ? 0 : 1);
+    for (size_t i = 0; i < n; i++) take_expression(x, &l, e[i], i + model->n < n ? 0 : 1);
     take_determinant(x, &l);
     take_roots(x, &l, rates && rates->only);
     size_t own = l.count;

@@ -50,18 +50,18 @@ static bool read_quadratic(nh_dag *d, nh_ex e, nh_ex z, quadratic *q)
 static nh_ex primitive_of_root(const nh_jet_equations *x, const quadratic *q, nh_ex z, nh_ex root)
 {
     nh_dag *d = x->dag;
-    const nh_model *o = x->model;
-    int sign = nh_model_sign(o, q->c);
+    const nh_model *model = x->model;
+    int sign = nh_model_sign(model, q->c);
     nh_ex size = sign < 0 ? nh_neg(d, q->c) : q->c,
           middle = nh_add(d, z, nh_div(d, q->b, nh_mul(d, nh_int(d, 2), q->c)));
     nh_ex rest = nh_sub(d, q->a, nh_div(d, nh_powi(d, q->b, 2), nh_mul(d, nh_int(d, 4), q->c)));
     rest = nh_simplify_short(d, rest, largest_form);
     bool constant = !has_coordinates(x, rest) && !has_coordinates(x, q->c);
     if (!sign || nh_is_zero(d, rest)) return 0;
-    if (constant && nh_model_sign(o, rest) > 0)
+    if (constant && nh_model_sign(model, rest) > 0)
         return nh_call(d, sign > 0 ? NH_ASINH : NH_ASIN, nh_mul(d, middle, nh_sqrt(d, nh_div(d, size, rest))));
     nh_ex inside = nh_add(d, middle, nh_sqrt(d, nh_simplify_short(d, nh_div(d, root, size), largest_form)));
-    return sign > 0 && nh_model_sign(o, inside) > 0 ? nh_call(d, NH_LOG, inside) : 0;
+    return sign > 0 && nh_model_sign(model, inside) > 0 ? nh_call(d, NH_LOG, inside) : 0;
 }
 
 /* The primitive of 1/(a + b z + c z^2): an arctangent, or an area function or logarithm; 0: its sign is not known. */

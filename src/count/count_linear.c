@@ -76,10 +76,11 @@ static bool read_frequencies(linear *l)
     enum { bits = 256, products = 500 };
     static const double slope = 0.6180339887498949; /* a generic line of the complex plane */
     const nh_jet_equations *x = l->c->equations;
-    const nh_model *o = x->model;
+    const nh_model *model = x->model;
     double *re = nh_alloc_array(2 * l->n + 1, sizeof *re), *im = re + l->n;
     nh_ball *ball = nh_ball_create(x->dag, bits);
-    for (size_t k = 0; k < o->system->parameters; k++) nh_ball_set_double(ball, o->parameter[k], o->parameter_value[k]);
+    for (size_t k = 0; k < model->system->parameters; k++)
+        nh_ball_set_double(ball, model->parameter[k], model->parameter_value[k]);
     bool good = nh_ball_eigenvalue_roots(ball, l->n, x->M, l->K, re, im, &l->error);
     for (size_t i = 0; i < l->n && good; i++) l->frequency[i] = im[i] + slope * re[i];
     l->error *= 4;

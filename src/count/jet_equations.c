@@ -173,27 +173,33 @@ static void find_coefficients(nh_jet_equations *x)
     nh_free(zero);
 }
 
-nh_jet_equations *nh_jet_equations_create(const nh_model *o, bool time, bool generic)
+nh_jet_equations *nh_jet_equations_create(const nh_model *model, bool time, bool generic)
 {
     nh_arena *arena = nh_arena_create();
     nh_jet_equations *x = nh_arena_alloc(arena, sizeof *x);
-    *x = (nh_jet_equations){
-        .model = o, .dag = o->dag, .arena = arena, .generic = generic, .n = o->n, .m = o->m, .w = o->chart->w};
+    *x = (nh_jet_equations){.model = model,
+                            .dag = model->dag,
+                            .arena = arena,
+                            .generic = generic,
+                            .n = model->n,
+                            .m = model->m,
+                            .w = model->chart->w};
     x->point = new_point(x);
-    if (o->chart->implicit) x->obstacle = "velocities that are given implicitly";
-    x->rho = take(x, o->m, o->rho);
-    x->M = take(x, o->n * o->n, o->M);
-    x->A = take(x, o->n, o->A);
+    if (model->chart->implicit) x->obstacle = "velocities that are given implicitly";
+    x->rho = take(x, model->m, model->rho);
+    x->M = take(x, model->n * model->n, model->M);
+    x->A = take(x, model->n, model->A);
     if (!x->obstacle) find_coefficients(x);
-    if (!x->obstacle && !nh_jet_point_register(x->point, o->n * nh_jet_equations_monomials(o->n), x->coefficient))
+    if (!x->obstacle &&
+        !nh_jet_point_register(x->point, model->n * nh_jet_equations_monomials(model->n), x->coefficient))
         x->obstacle = x->point->obstacle;
     x->complete = true;
     x->products = x->obstacle ? 0 : products(x);
     x->time = time || depends_on_time(x);
-    x->coordinates = o->m + x->time;
-    x->coordinate = o->chart->symbol + !x->time; /* t, q */
-    x->fields = o->n + (x->time || (!x->obstacle && affine(x)));
-    x->at = nh_arena_alloc(arena, (x->coordinates + o->system->parameters + 2) * sizeof *x->at);
+    x->coordinates = model->m + x->time;
+    x->coordinate = model->chart->symbol + !x->time; /* t, q */
+    x->fields = model->n + (x->time || (!x->obstacle && affine(x)));
+    x->at = nh_arena_alloc(arena, (x->coordinates + model->system->parameters + 2) * sizeof *x->at);
     return x;
 }
 

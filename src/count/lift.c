@@ -238,29 +238,29 @@ static bool choose_columns(lifting *l, size_t most, column *out, size_t *count)
 /* ---- the whole ---- */
 
 /* The coefficient of each term, from those of its columns. */
-static void gather(const nh_model *o, size_t terms, size_t columns, const column *c, const nh_num *coefficient,
+static void gather(const nh_model *model, size_t terms, size_t columns, const column *c, const nh_num *coefficient,
                    nh_ex *out)
 {
-    for (size_t j = 0; j < terms; j++) out[j] = nh_int(o->dag, 0);
+    for (size_t j = 0; j < terms; j++) out[j] = nh_int(model->dag, 0);
     for (size_t j = 0; j < columns; j++) {
-        nh_ex e = nh_number(o->dag, coefficient[j]);
-        for (size_t k = 0; k < o->system->parameters && k < most_parameters; k++)
-            if (c[j].power[k]) e = nh_mul(o->dag, e, nh_powi(o->dag, o->parameter[k], c[j].power[k]));
-        out[c[j].term] = nh_add(o->dag, out[c[j].term], e);
+        nh_ex e = nh_number(model->dag, coefficient[j]);
+        for (size_t k = 0; k < model->system->parameters && k < most_parameters; k++)
+            if (c[j].power[k]) e = nh_mul(model->dag, e, nh_powi(model->dag, model->parameter[k], c[j].power[k]));
+        out[c[j].term] = nh_add(model->dag, out[c[j].term], e);
     }
 }
 
-static bool lift(const nh_model *o, bool time, bool generic, size_t terms, const nh_ex *term, double most, double *work,
-                 nh_ex *out)
+static bool lift(const nh_model *model, bool time, bool generic, size_t terms, const nh_ex *term, double most,
+                 double *work, nh_ex *out)
 {
     enum { times_as_many = 3 }; /* columns as terms */
-    lifting l = {.equations = nh_jet_equations_create(o, time, generic), .terms = terms, .most = most};
+    lifting l = {.equations = nh_jet_equations_create(model, time, generic), .terms = terms, .most = most};
     nh_jet_equations *x = l.equations;
     size_t room = times_as_many * terms, columns = terms;
     column *c = nh_alloc_array(room, sizeof *c);
     nh_num *coefficient = nh_alloc_array(room, sizeof *coefficient);
     bool good = !x->obstacle;
-    l.parameters = generic ? o->system->parameters : 0;
+    l.parameters = generic ? model->system->parameters : 0;
     l.term = nh_alloc_array(terms, sizeof *l.term);
     l.rate = nh_alloc_array(terms, sizeof *l.rate);
     for (size_t j = 0; j < terms && good; j++) {
@@ -271,7 +271,7 @@ static bool lift(const nh_model *o, bool time, bool generic, size_t terms, const
     nh_jet_point_related(x->point); /* for the roots that are functions of others; what is found is only proposed */
     if (generic) good = good && choose_columns(&l, room, c, &columns);
     good = good && fractions(&l, columns, c, coefficient);
-    if (good) gather(o, terms, columns, c, coefficient, out);
+    if (good) gather(model, terms, columns, c, coefficient, out);
     *work += l.work;
     nh_free(coefficient);
     nh_free(c);
@@ -309,12 +309,12 @@ nh_lift_result nh_lift(const nh_model *model, bool time, size_t terms, const nh_
     return out;
 }
 
-static bool has_time(const nh_model *o, size_t terms, const nh_ex *term)
+static bool has_time(const nh_model *model, size_t terms, const nh_ex *term)
 {
     bool has = false;
-    for (size_t j = 0; j < terms; j++) has |= nh_depends(o->dag, term[j], o->system->t);
-    for (size_t s = 0; s < o->m; s++) has |= nh_depends(o->dag, o->rho[s], o->system->t);
-    for (size_t i = 0; i < o->n; i++) has |= nh_depends(o->dag, o->a[i], o->system->t);
+    for (size_t j = 0; j < terms; j++) has |= nh_depends(model->dag, term[j], model->system->t);
+    for (size_t s = 0; s < model->m; s++) has |= nh_depends(model->dag, model->rho[s], model->system->t);
+    for (size_t i = 0; i < model->n; i++) has |= nh_depends(model->dag, model->a[i], model->system->t);
     return has;
 }
 

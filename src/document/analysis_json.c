@@ -57,31 +57,31 @@ static void put_ranks(nh_json *to, const char *key, size_t n, const size_t *rank
 /* Functions of (t, q) that the constraints alone keep constant. */
 static void put_integrals(const writer *w, nh_json *to)
 {
-    const nh_analysis *r = w->r;
+    const nh_analysis *result = w->r;
     nh_json *item = nh_json_put_object(to, "hidden_holonomic");
-    nh_json_put_number(item, "count", (double)r->constraint.hidden);
+    nh_json_put_number(item, "count", (double)result->constraint.hidden);
     nh_json *functions = nh_json_put_array(item, "functions");
-    for (size_t i = 0; i < r->integrals; i++) {
-        const nh_current *f = &r->found[r->integral[i]];
+    for (size_t i = 0; i < result->integrals; i++) {
+        const nh_current *f = &result->found[result->integral[i]];
         nh_json *line = nh_json_add_object(functions);
         nh_json_put_text(line, "current", f->name);
         put_expression(w, line, "expression", f->phi);
         nh_json_put_bool(line, "local", f->local);
     }
-    nh_json_put_number(item, "without_closed_form", (double)(r->constraint.hidden - r->integrals));
+    nh_json_put_number(item, "without_closed_form", (double)(result->constraint.hidden - result->integrals));
 }
 
 static void put_branch(const writer *w, nh_json *to)
 {
-    const nh_analysis *r = w->r;
-    nh_json *item = r->branch ? nh_json_put_object(to, "branch") : NULL;
+    const nh_analysis *result = w->r;
+    nh_json *item = result->branch ? nh_json_put_object(to, "branch") : NULL;
     if (!item) {
         nh_json_put_null(to, "branch");
         return;
     }
-    nh_json_put_text(item, "computed", r->branch);
-    nh_json_put_text(item, "other", r->other_branch);
-    nh_json_put_bool(item, "equations_on_both", r->equations_on_both);
+    nh_json_put_text(item, "computed", result->branch);
+    nh_json_put_text(item, "other", result->other_branch);
+    nh_json_put_bool(item, "equations_on_both", result->equations_on_both);
 }
 
 static void put_constraint(const writer *w, nh_json *to)
@@ -113,51 +113,51 @@ static void put_constraint(const writer *w, nh_json *to)
 
 static void put_system(const writer *w, nh_json *to)
 {
-    const nh_analysis *r = w->r;
+    const nh_analysis *result = w->r;
     nh_json_put_number(to, "schema", 1);
     nh_json_put_text(to, "version", NH_VERSION);
-    nh_json_put_text(to, "system", r->system->name);
-    nh_json_put_text(to, "title", r->system->title);
+    nh_json_put_text(to, "system", result->system->name);
+    nh_json_put_text(to, "title", result->system->title);
     nh_json *parameters = nh_json_put_object(to, "parameters");
-    for (size_t i = 0; i < r->system->parameters; i++)
-        nh_json_put_number(parameters, r->system->parameter[i].name, r->system->parameter[i].value);
+    for (size_t i = 0; i < result->system->parameters; i++)
+        nh_json_put_number(parameters, result->system->parameter[i].name, result->system->parameter[i].value);
     nh_json *dimension = nh_json_put_object(to, "dimension");
-    nh_json_put_number(dimension, "coordinates", (double)r->model->m);
-    nh_json_put_number(dimension, "constraints", (double)r->model->k);
-    nh_json_put_number(dimension, "submanifold", (double)(1 + r->model->m + r->model->n));
+    nh_json_put_number(dimension, "coordinates", (double)result->model->m);
+    nh_json_put_number(dimension, "constraints", (double)result->model->k);
+    nh_json_put_number(dimension, "submanifold", (double)(1 + result->model->m + result->model->n));
     put_constraint(w, to);
 }
 
-static nh_json *add_chart(const writer *w, nh_json *charts, const nh_model *o)
+static nh_json *add_chart(const writer *w, nh_json *charts, const nh_model *model)
 {
     nh_json *item = nh_json_add_object(charts);
-    nh_json_put_text(item, "name", o->chart->name);
-    put_expression(w, item, "lagrangian", o->Lbar);
-    put_expression(w, item, "energy", o->E);
+    nh_json_put_text(item, "name", model->chart->name);
+    put_expression(w, item, "lagrangian", model->Lbar);
+    put_expression(w, item, "energy", model->E);
     nh_json *equations = nh_json_put_array(item, "reduced_equations");
-    for (size_t i = 0; i < o->n; i++) {
+    for (size_t i = 0; i < model->n; i++) {
         nh_json *line = nh_json_add_object(equations);
-        nh_json_put_text(line, "velocity", nh_name_of(o->dag, o->chart->w[i]));
-        put_expression(w, line, "rate", o->a[i]);
+        nh_json_put_text(line, "velocity", nh_name_of(model->dag, model->chart->w[i]));
+        put_expression(w, line, "rate", model->a[i]);
     }
     nh_json *multipliers = nh_json_put_array(item, "multipliers");
-    for (size_t a = 0; a < o->k; a++) {
+    for (size_t a = 0; a < model->k; a++) {
         nh_json *line = nh_json_add_object(multipliers);
-        nh_json_put_text(line, "constraint", o->system->constraint[a].text);
-        put_expression(w, line, "expression", o->mu[a]);
+        nh_json_put_text(line, "constraint", model->system->constraint[a].text);
+        put_expression(w, line, "expression", model->mu[a]);
     }
-    put_expressions(w, item, "reaction", o->m, o->reaction);
+    put_expressions(w, item, "reaction", model->m, model->reaction);
     return item;
 }
 
 static void put_equations(const writer *w, nh_json *to)
 {
-    const nh_analysis *r = w->r;
-    nh_json_put_text(to, "chart", r->model->chart->name);
-    nh_json *charts = nh_json_put_array(to, "charts"), *own = add_chart(w, charts, r->model);
+    const nh_analysis *result = w->r;
+    nh_json_put_text(to, "chart", result->model->chart->name);
+    nh_json *charts = nh_json_put_array(to, "charts"), *own = add_chart(w, charts, result->model);
     nh_json_put_copy(to, "reduced_equations", nh_json_get(own, "reduced_equations"));
     nh_json_put_copy(to, "multipliers", nh_json_get(own, "multipliers"));
-    if (r->other) add_chart(w, charts, r->other);
+    if (result->other) add_chart(w, charts, result->other);
 }
 
 /* ---- the search ---- */
@@ -186,12 +186,12 @@ static void put_spectrum(nh_json *to, const char *key, const nh_spectrum *s)
 
 static void put_unknowns(const writer *w, nh_json *to)
 {
-    const nh_analysis *r = w->r;
+    const nh_analysis *result = w->r;
     nh_json *item = nh_json_put_object(to, "unknowns");
-    for (size_t j = 0; r->hits && j < r->hits->unknowns; j++) {
-        nh_json *values = nh_json_put_array(item, nh_name_of(w->dag, r->analysis->unknown[j].symbol));
-        for (size_t k = 0; k < r->specials; k++) {
-            const nh_special *s = &r->special[k];
+    for (size_t j = 0; result->hits && j < result->hits->unknowns; j++) {
+        nh_json *values = nh_json_put_array(item, nh_name_of(w->dag, result->analysis->unknown[j].symbol));
+        for (size_t k = 0; k < result->specials; k++) {
+            const nh_special *s = &result->special[k];
             nh_json *value = nh_json_add_object(values);
             nh_json_put_number(value, "value", s->value[j]);
             if (s->recognised[j]) put_expression(w, value, "recognised", s->recognised[j]);
@@ -202,78 +202,79 @@ static void put_unknowns(const writer *w, nh_json *to)
             nh_json_put_number(value, "quotient", s->hit->quotient);
         }
     }
-    if (!nh_analysis_by_trial(r)) {
+    if (!nh_analysis_by_trial(result)) {
         nh_json_put_null(to, "tried");
         return;
     }
     nh_json *tried = nh_json_put_object(to, "tried");
-    nh_json_put_number(tried, "evaluations", (double)r->hits->evaluations);
-    nh_json_put_number(tried, "parts", (double)r->hits->parts);
-    nh_json_put_number(tried, "visited", (double)r->hits->visited);
+    nh_json_put_number(tried, "evaluations", (double)result->hits->evaluations);
+    nh_json_put_number(tried, "parts", (double)result->hits->parts);
+    nh_json_put_number(tried, "visited", (double)result->hits->visited);
 }
 
 static void put_search(const writer *w, nh_json *to)
 {
-    const nh_analysis *r = w->r;
-    nh_json_put_text(to, "verdict", verdict_name(r->verdict));
-    nh_json_put_text(to, "search", nh_search_word(r->search));
-    nh_json_put_text(to, "ansatz", r->ansatz_note);
-    put_spectrum(to, "nullspace", &r->current);
-    put_spectrum(to, "symmetry_route", &r->symmetry);
-    if (r->routes_compared) {
+    const nh_analysis *result = w->r;
+    nh_json_put_text(to, "verdict", verdict_name(result->verdict));
+    nh_json_put_text(to, "search", nh_search_word(result->search));
+    nh_json_put_text(to, "ansatz", result->ansatz_note);
+    put_spectrum(to, "nullspace", &result->current);
+    put_spectrum(to, "symmetry_route", &result->symmetry);
+    if (result->routes_compared) {
         nh_json *routes = nh_json_put_object(to, "routes");
-        nh_json_put_bool(routes, "agree", r->routes_agree);
-        nh_json_put_number(routes, "angle", r->routes_angle);
+        nh_json_put_bool(routes, "agree", result->routes_agree);
+        nh_json_put_number(routes, "angle", result->routes_angle);
     } else {
         nh_json_put_null(to, "routes");
     }
-    if (r->counted_space.compared) {
+    if (result->counted_space.compared) {
         nh_json *space = nh_json_put_object(to, "counted_space");
-        nh_json_put_bool(space, "agrees", r->counted_space.agrees);
-        nh_json_put_number(space, "angle", r->counted_space.angle);
-        nh_json_put_number(space, "degree", (double)r->counted_space.degree);
-        nh_json_put_number(space, "products", (double)r->counted_space.products);
+        nh_json_put_bool(space, "agrees", result->counted_space.agrees);
+        nh_json_put_number(space, "angle", result->counted_space.angle);
+        nh_json_put_number(space, "degree", (double)result->counted_space.degree);
+        nh_json_put_number(space, "products", (double)result->counted_space.products);
     } else {
         nh_json_put_null(to, "counted_space");
     }
     nh_json *samples = nh_json_put_object(to, "samples");
-    nh_json_put_number(samples, "used", (double)r->samples);
-    nh_json_put_number(samples, "beyond_chart", (double)r->beyond);
-    nh_json_put_number(samples, "rejected", (double)r->rejected);
-    nh_json_put_number(samples, "seed", r->options.seed);
+    nh_json_put_number(samples, "used", (double)result->samples);
+    nh_json_put_number(samples, "beyond_chart", (double)result->beyond);
+    nh_json_put_number(samples, "rejected", (double)result->rejected);
+    nh_json_put_number(samples, "seed", result->options.seed);
     put_unknowns(w, to);
-    nh_analysis_json_completeness(r, to);
-    nh_analysis_json_stages(r, to);
+    nh_analysis_json_completeness(result, to);
+    nh_analysis_json_stages(result, to);
 }
 
 /* ---- currents ---- */
 
 static void put_field(const writer *w, nh_json *to, const nh_current *f)
 {
-    const nh_analysis *r = w->r;
-    const nh_model *o = r->model, *basis = r->other ? r->other : r->model;
+    const nh_analysis *result = w->r;
+    const nh_model *model = result->model, *basis = result->other ? result->other : result->model;
     const nh_symmetry *z = &f->symmetry;
     nh_json *item = nh_json_put_object(to, "symmetry");
     put_expression(w, item, "Z0", z->Z0);
-    put_expressions(w, item, "zeta", o->n, z->zeta);
-    put_expressions(w, item, "W", o->n, z->W);
+    put_expressions(w, item, "zeta", model->n, z->zeta);
+    put_expressions(w, item, "W", model->n, z->W);
     nh_json *components = nh_json_put_object(item, "components");
     put_expression(w, components, "t", z->Z0);
-    for (size_t s = 0; s < o->m; s++) put_expression(w, components, r->system->coordinate[s].name, z->field.space[s]);
+    for (size_t s = 0; s < model->m; s++)
+        put_expression(w, components, result->system->coordinate[s].name, z->field.space[s]);
     for (size_t i = 0; i < basis->n; i++) {
-        nh_ex e = r->other ? 0 : z->W[i];
-        for (size_t s = 0; s < o->m && r->other; s++)
-            if (basis->chart->w[i] == r->system->coordinate[s].v) e = z->coordinate_rate[s];
+        nh_ex e = result->other ? 0 : z->W[i];
+        for (size_t s = 0; s < model->m && result->other; s++)
+            if (basis->chart->w[i] == result->system->coordinate[s].v) e = z->coordinate_rate[s];
         put_expression(w, components, nh_name_of(w->dag, basis->chart->w[i]), e);
     }
     nh_field_term *term;
-    size_t terms = z->along_motion ? nh_formula_field(r, z, &term) : 0;
+    size_t terms = z->along_motion ? nh_formula_field(result, z, &term) : 0;
     nh_json *relative = terms ? nh_json_put_object(item, "components_with_gamma") : NULL;
     for (size_t i = 0; i < terms; i++)
         put_expression(w, relative, term[i].along ? term[i].along : "Gamma", term[i].coefficient);
     if (!relative) nh_json_put_null(item, "components_with_gamma");
     nh_json_put_number(item, "residual", z->noether_residual);
-    put_expressions(w, item, "i_bracket_phi", o->k, z->bracket_form);
+    put_expressions(w, item, "i_bracket_phi", model->k, z->bracket_form);
 }
 
 static void put_drift(const writer *w, nh_json *to, const nh_current *f)
@@ -435,37 +436,37 @@ static void put_timing(const nh_timing *t, nh_json *to)
     nh_json_put_number(item, "validation_s", t->validation);
 }
 
-char *nh_analysis_json(const nh_analysis *r)
+char *nh_analysis_json(const nh_analysis *result)
 {
     size_t left_out = 0;
-    writer w = {r, r->model->dag, &left_out};
+    writer w = {result, result->model->dag, &left_out};
     nh_json *root = nh_json_object();
     put_system(&w, root);
     put_equations(&w, root);
-    nh_motion_sheet_json(r, root);
-    nh_geometry_json(r->arena, r->theory, r->analysis, root);
+    nh_motion_sheet_json(result, root);
+    nh_geometry_json(result->arena, result->theory, result->analysis, root);
     put_search(&w, root);
     nh_json *currents = nh_json_put_array(root, "currents");
-    for (size_t k = 0; k < r->count; k++) put_current(&w, currents, &r->found[k]);
+    for (size_t k = 0; k < result->count; k++) put_current(&w, currents, &result->found[k]);
     put_others(&w, root);
     put_almost(&w, root);
-    nh_analysis_json_stated(r, root);
-    nh_json_put_number(root, "independent_currents", (double)r->independent);
-    nh_json_put_number(root, "local_maximum", (double)r->local_maximum);
-    nh_analysis_json_validation(r, root);
-    nh_analysis_json_figures(r, root);
-    nh_json_put_bool(root, "partial", r->partial);
-    nh_run_json(&(nh_run){r->command, r->system_path, r->analysis_path, r->options.seed, r->options.shown,
-                          r->timing.total, NULL},
-                r->system, root);
-    put_timing(&r->timing, root);
+    nh_analysis_json_stated(result, root);
+    nh_json_put_number(root, "independent_currents", (double)result->independent);
+    nh_json_put_number(root, "local_maximum", (double)result->local_maximum);
+    nh_analysis_json_validation(result, root);
+    nh_analysis_json_figures(result, root);
+    nh_json_put_bool(root, "partial", result->partial);
+    nh_run_json(&(nh_run){result->command, result->system_path, result->analysis_path, result->options.seed,
+                          result->options.shown, result->timing.total, NULL},
+                result->system, root);
+    put_timing(&result->timing, root);
     nh_json *warnings = nh_json_put_array(root, "warnings");
-    for (size_t i = 0; i < r->warnings; i++) nh_json_add_text(warnings, r->warning[i]);
+    for (size_t i = 0; i < result->warnings; i++) nh_json_add_text(warnings, result->warning[i]);
     char note[200];
     snprintf(note, sizeof note, "%zu formula%s longer than %.0f symbols and null here (option `written`)", left_out,
-             left_out == 1 ? " is" : "s are", r->options.written);
+             left_out == 1 ? " is" : "s are", result->options.written);
     if (left_out) nh_json_add_text(warnings, note);
-    size_t holes = nh_analysis_json_holes(r);
+    size_t holes = nh_analysis_json_holes(result);
     snprintf(note, sizeof note,
              "%zu values along the motion are not finite, as at a pole of the chart, or not real: null here", holes);
     if (holes) nh_json_add_text(warnings, note);

@@ -8,11 +8,11 @@
 
 /* ---- the motion ---- */
 
-static void put_motion(const nh_analysis *r, nh_json *to)
+static void put_motion(const nh_analysis *result, nh_json *to)
 {
-    const nh_validation *v = r->validation;
+    const nh_validation *v = result->validation;
     nh_json *motion = nh_json_put_object(to, "motion");
-    nh_time_series *c = nh_time_series_of_analysis(r);
+    nh_time_series *c = nh_time_series_of_analysis(result);
     nh_json_put_numbers(motion, "time", v->count, v->time, 1);
     nh_time_series_json(c, motion, "states", NH_TRACK_STATE);
     nh_time_series_json(c, motion, "energies", NH_TRACK_ENERGY);
@@ -20,13 +20,13 @@ static void put_motion(const nh_analysis *r, nh_json *to)
     nh_time_series_json(c, motion, "multipliers", NH_TRACK_MULTIPLIER);
     nh_time_series_json_drawing(c, motion);
     nh_json *watch = nh_time_series_json(c, to, "watch", NH_TRACK_WATCH);
-    if (r->analysis && r->analysis->watches) nh_json_put_numbers(watch, "t", v->count, v->time, 1);
+    if (result->analysis && result->analysis->watches) nh_json_put_numbers(watch, "t", v->count, v->time, 1);
     nh_time_series_free(c);
 }
 
-void nh_analysis_json_validation(const nh_analysis *r, nh_json *to)
+void nh_analysis_json_validation(const nh_analysis *result, nh_json *to)
 {
-    const nh_validation *v = r->validation;
+    const nh_validation *v = result->validation;
     if (!v) {
         nh_json_put_null(to, "validation");
         return;
@@ -42,7 +42,7 @@ void nh_analysis_json_validation(const nh_analysis *r, nh_json *to)
     nh_accuracy_json(v->checked ? &v->accuracy : NULL, item);
     nh_json *drift = nh_json_put_object(item, "drift");
     for (size_t k = 0; k < v->currents; k++)
-        nh_json_put_numbers(drift, r->found[k].name, NH_DRIFT_RUNS, v->current[k].drift, 1);
+        nh_json_put_numbers(drift, result->found[k].name, NH_DRIFT_RUNS, v->current[k].drift, 1);
     if (v->multiplier_form) {
         nh_json *full = nh_json_put_object(item, "multiplier_form");
         nh_json_put_text(full, "method", v->multiplier_method);
@@ -64,7 +64,7 @@ void nh_analysis_json_validation(const nh_analysis *r, nh_json *to)
         nh_json_put_text(crossing, "chart", v->crossing_chart);
         nh_json_put_number(crossing, "time", v->crossing);
     }
-    put_motion(r, item);
+    put_motion(result, item);
     if (v->scene) {
         nh_json *scene = nh_json_put_object(item, "scene");
         nh_json_put_text(scene, "model", v->scene);
@@ -73,11 +73,11 @@ void nh_analysis_json_validation(const nh_analysis *r, nh_json *to)
     }
 }
 
-void nh_analysis_json_stated(const nh_analysis *r, nh_json *to)
+void nh_analysis_json_stated(const nh_analysis *result, nh_json *to)
 {
     nh_json *list = nh_json_put_array(to, "stated");
-    for (size_t i = 0; i < r->stateds; i++) {
-        const nh_stated *s = &r->stated[i];
+    for (size_t i = 0; i < result->stateds; i++) {
+        const nh_stated *s = &result->stated[i];
         bool holds = s->verdict != NH_STATED_FALSE && s->verdict != NH_STATED_OPEN;
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "name", s->name);
@@ -96,18 +96,18 @@ void nh_analysis_json_stated(const nh_analysis *r, nh_json *to)
             continue;
         }
         nh_json *state = nh_json_put_object(item, "state");
-        for (size_t j = 0; j < r->model->width; j++)
-            nh_json_put_number(state, nh_name_of(r->model->dag, r->model->chart->symbol[j]), s->state[j]);
+        for (size_t j = 0; j < result->model->width; j++)
+            nh_json_put_number(state, nh_name_of(result->model->dag, result->model->chart->symbol[j]), s->state[j]);
         nh_json_put_number(item, "rate", s->rate);
     }
 }
 
-void nh_analysis_json_figures(const nh_analysis *r, nh_json *to)
+void nh_analysis_json_figures(const nh_analysis *result, nh_json *to)
 {
     static const char *const kinds[] = {"path", "plot", "scan", "samples"};
     nh_json *list = nh_json_put_array(to, "figures");
-    for (size_t i = 0; i < r->figures; i++) {
-        const nh_figure *f = &r->figure[i];
+    for (size_t i = 0; i < result->figures; i++) {
+        const nh_figure *f = &result->figure[i];
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "title", f->request->title);
         nh_json_put_text(item, "kind", kinds[f->request->kind]);
@@ -125,14 +125,14 @@ void nh_analysis_json_figures(const nh_analysis *r, nh_json *to)
     }
 }
 
-size_t nh_analysis_json_holes(const nh_analysis *r)
+size_t nh_analysis_json_holes(const nh_analysis *result)
 {
-    const nh_validation *v = r->validation;
-    size_t holes = 0, k = r->model->k;
+    const nh_validation *v = result->validation;
+    size_t holes = 0, k = result->model->k;
     for (size_t j = 0; v && j < v->watches; j++) {
         bool series = false; /* is it a series?  Its values end with its interval */
-        for (size_t c = 0; c < r->count; c++)
-            series |= r->found[c].series && r->tracks.track[j].value == r->found[c].phi;
+        for (size_t c = 0; c < result->count; c++)
+            series |= result->found[c].series && result->tracks.track[j].value == result->found[c].phi;
         for (size_t i = 0; i < v->count && !series; i++) holes += !isfinite(v->watch[i * v->watches + j]);
     }
     for (size_t i = 0; v && i < v->count * k; i++) holes += !isfinite(v->multiplier[i]);
@@ -141,15 +141,15 @@ size_t nh_analysis_json_holes(const nh_analysis *r)
 
 /* ---- the stages of the search ---- */
 
-void nh_analysis_json_stages(const nh_analysis *r, nh_json *to)
+void nh_analysis_json_stages(const nh_analysis *result, nh_json *to)
 {
     nh_json *list = nh_json_put_array(to, "stages");
-    for (size_t i = 0; i < r->stages; i++) {
-        const nh_stage_record *s = &r->stage[i];
+    for (size_t i = 0; i < result->stages; i++) {
+        const nh_stage_record *s = &result->stage[i];
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "name", s->name);
         nh_json_put_bool(item, "too_large", s->skipped);
-        if (s->skipped) nh_json_put_text(item, "brought_in_by", nh_limit_words(r->arena, &s->limit));
+        if (s->skipped) nh_json_put_text(item, "brought_in_by", nh_limit_words(result->arena, &s->limit));
         nh_json_put_number(item, "columns", (double)s->columns);
         nh_json_put_number(item, "sectors", (double)s->sectors);
         nh_json_put_number(item, "dimension", (double)s->dimension);
@@ -230,9 +230,9 @@ static nh_json *put_count(nh_json *to, const char *key, const nh_completeness *c
     return item;
 }
 
-void nh_analysis_json_completeness(const nh_analysis *r, nh_json *to)
+void nh_analysis_json_completeness(const nh_analysis *result, nh_json *to)
 {
-    const nh_completeness *c = r->completeness;
+    const nh_completeness *c = result->completeness;
     bool timely = !c[NH_COMPLETE_IN_COORDINATES].counted;
     nh_json *item = put_count(to, "completeness", &c[timely ? NH_COMPLETE_IN_TIME : NH_COMPLETE_IN_COORDINATES]);
     if (item && timely) nh_json_put_null(item, "in_time");

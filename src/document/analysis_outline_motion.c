@@ -11,9 +11,9 @@
 
 /* ---- the motion ---- */
 
-static void drifts(nh_pen *p, const nh_analysis *r)
+static void drifts(nh_pen *p, const nh_analysis *result)
 {
-    const nh_validation *v = r->validation;
+    const nh_validation *v = result->validation;
     char heads[200];
     if (!v->currents) return;
     snprintf(heads, sizeof heads, "current|#%g|#%g|#%g", v->tolerance[0], v->tolerance[1], v->tolerance[2]);
@@ -24,7 +24,7 @@ static void drifts(nh_pen *p, const nh_analysis *r)
             double d = v->current[k].drift[i];
             snprintf(text[i], sizeof text[i], isfinite(d) ? "%.2g" : "\u2013", d);
         }
-        nh_pen_row(p, "#<%s>|%s|%s|%s", r->found[k].name, text[0], text[1], text[2]);
+        nh_pen_row(p, "#<%s>|%s|%s|%s", result->found[k].name, text[0], text[1], text[2]);
     }
     nh_pen_table_end(p);
 }
@@ -32,10 +32,10 @@ _Static_assert(NH_DRIFT_RUNS == 3, "the table of drifts has a column for each to
 
 static const char *agree(double difference) { return difference > NH_MOTIONS_APART ? "differ by" : "agree to"; }
 
-static void second_opinion(nh_pen *p, const nh_analysis *r)
+static void second_opinion(nh_pen *p, const nh_analysis *result)
 {
-    const nh_validation *v = r->validation;
-    bool constrained = r->system->constraints > 0;
+    const nh_validation *v = result->validation;
+    bool constrained = result->system->constraints > 0;
     if (v->crossing_chart && !isnan(v->crossing))
         nh_pen_words(p, "The chart of {%s} breaks down at t = %.4g; the chart of this motion is regular there.",
                      v->crossing_chart, v->crossing);
@@ -53,11 +53,11 @@ static void second_opinion(nh_pen *p, const nh_analysis *r)
     nh_pen_close(p, NH_PEN_WORDS);
 }
 
-void nh_analysis_write_motion(nh_pen *p, const nh_analysis *r)
+void nh_analysis_write_motion(nh_pen *p, const nh_analysis *result)
 {
-    const nh_validation *v = r->validation;
+    const nh_validation *v = result->validation;
     if (!v || v->count < 2) return;
-    nh_time_series *c = nh_time_series_of_analysis(r);
+    nh_time_series *c = nh_time_series_of_analysis(result);
     nh_pen_section(p, "motion", "A motion");
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     nh_pen_say(p, "%s in {%s}, t = %.4g to %.6g, %ld evaluations", v->method, v->chart, v->begin, v->end,
@@ -67,11 +67,11 @@ void nh_analysis_write_motion(nh_pen *p, const nh_analysis *r)
     nh_pen_close(p, NH_PEN_WORDS);
     p->ink->series(p->to, c);
     nh_time_series_free(c);
-    drifts(p, r);
+    drifts(p, result);
     if (v->scene)
         nh_pen_words(p, "%s: the same values to %.2g, with %ld evaluations.", v->scene, v->scene_difference,
                      v->scene_evaluations);
-    second_opinion(p, r);
+    second_opinion(p, result);
 }
 
 /* ---- figures ---- */
@@ -119,11 +119,12 @@ static void over_time(nh_pen *p, const nh_figure *f)
 }
 
 /* The curve, with the values that were found as points. */
-static void scan(nh_pen *p, const nh_analysis *r, const nh_figure *f)
+static void scan(nh_pen *p, const nh_analysis *result, const nh_figure *f)
 {
-    size_t n = r->hits ? r->hits->count : 0, u = f->request->unknown;
+    size_t n = result->hits ? result->hits->count : 0, u = f->request->unknown;
     double *found = nh_alloc_array(2 * n + 1, sizeof *found);
-    for (size_t k = 0; k < n; k++) found[k] = r->hits->hit[k].value[u], found[n + k] = r->hits->hit[k].quotient;
+    for (size_t k = 0; k < n; k++)
+        found[k] = result->hits->hit[k].value[u], found[n + k] = result->hits->hit[k].quotient;
     nh_curve curve[] = {
         curve_of(&f->curve[0]),
         {.name = "values found", .count = n, .x = found, .x_stride = 1, .y = found + n, .y_stride = 1, .dots = true}};
@@ -159,17 +160,17 @@ static void samples(nh_pen *p, const nh_figure *f)
     nh_pen_plot(p, &plot, f->request->title);
 }
 
-void nh_analysis_write_figures(nh_pen *p, const nh_analysis *r)
+void nh_analysis_write_figures(nh_pen *p, const nh_analysis *result)
 {
-    if (!r->figures || p->ink->brief) return;
+    if (!result->figures || p->ink->brief) return;
     nh_pen_section(p, "figures", "Figures");
     nh_pen_words(p, "The analysis file defines these figures.");
-    for (size_t i = 0; i < r->figures; i++) {
-        const nh_figure *f = &r->figure[i];
+    for (size_t i = 0; i < result->figures; i++) {
+        const nh_figure *f = &result->figure[i];
         if (!f->curves) continue;
         if (f->request->kind == NH_FIGURE_PATH) paths(p, f);
         else if (f->request->kind == NH_FIGURE_PLOT) over_time(p, f);
-        else if (f->request->kind == NH_FIGURE_SCAN) scan(p, r, f);
+        else if (f->request->kind == NH_FIGURE_SCAN) scan(p, result, f);
         else samples(p, f);
     }
 }
@@ -179,15 +180,15 @@ void nh_analysis_write_figures(nh_pen *p, const nh_analysis *r)
 enum { room = 24 }; /* characters, for the names of parameters */
 
 /* The tracks of the analysis, then the multipliers: the lines of its time series. */
-static const nh_observables *with_multipliers(const nh_analysis *r)
+static const nh_observables *with_multipliers(const nh_analysis *result)
 {
-    nh_observables *t = nh_arena_alloc(r->arena, sizeof *t);
-    *t = r->tracks;
-    t->track = nh_arena_alloc(r->arena, (t->count + r->model->k + 1) * sizeof *t->track);
-    memcpy(t->track, r->tracks.track, t->count * sizeof *t->track);
-    for (size_t a = 0; a < r->model->k; a++)
+    nh_observables *t = nh_arena_alloc(result->arena, sizeof *t);
+    *t = result->tracks;
+    t->track = nh_arena_alloc(result->arena, (t->count + result->model->k + 1) * sizeof *t->track);
+    memcpy(t->track, result->tracks.track, t->count * sizeof *t->track);
+    for (size_t a = 0; a < result->model->k; a++)
         t->track[t->count++] =
-            (nh_track){nh_arena_printf(r->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, r->model->mu[a]};
+            (nh_track){nh_arena_printf(result->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, result->model->mu[a]};
     return t;
 }
 
@@ -205,50 +206,50 @@ static const char *joined(nh_arena *arena, const char *a, const char *b)
 }
 
 /* "for all m, k", and under which conditions; many names are not told. */
-static const char *brief_proof(const nh_analysis *r, const nh_current *f)
+static const char *brief_proof(const nh_analysis *result, const nh_current *f)
 {
     static const char *const conditions[] = {" with ", ", real where "};
     static const char all[] = " for all ";
-    const char *sure = nh_analysis_answer_proof(r, f), *rest = sure + strlen(sure);
+    const char *sure = nh_analysis_answer_proof(result, f), *rest = sure + strlen(sure);
     for (size_t i = 0; i < sizeof conditions / sizeof *conditions; i++) {
         const char *at = strstr(sure, conditions[i]);
         if (at && at < rest) rest = at;
     }
     bool listed = f->proof.all_parameters && !strncmp(sure, all, sizeof all - 1);
     if (!listed || (size_t)(rest - sure) <= room) return sure;
-    return nh_arena_printf(r->arena, "for all parameter values%s", rest);
+    return nh_arena_printf(result->arena, "for all parameter values%s", rest);
 }
 
-static nh_stage_row row_of(const nh_analysis *r, const nh_current *f)
+static nh_stage_row row_of(const nh_analysis *result, const nh_current *f)
 {
-    nh_current_words words = nh_current_words_of(r, f, true, NULL);
-    const char *sure = brief_proof(r, f);
-    nh_stage_row row = {.name = joined(r->arena, words.name, words.of),
+    nh_current_words words = nh_current_words_of(result, f, true, NULL);
+    const char *sure = brief_proof(result, f);
+    nh_stage_row row = {.name = joined(result->arena, words.name, words.of),
                         .doc = f->independence == NH_DEPENDENT ? "follows from the others" : words.doc,
-                        .from = joined(r->arena, words.how, words.what),
+                        .from = joined(result->arena, words.how, words.what),
                         .sure = *sure == ' ' ? sure + 1 : sure,
-                        .anchor = nh_arena_printf(r->arena, "q-%s", f->name),
-                        .label = without_end(r->arena, nh_current_label(r, f), "= "),
-                        .value = nh_analysis_answer_shown(r, f),
+                        .anchor = nh_arena_printf(result->arena, "q-%s", f->name),
+                        .label = without_end(result->arena, nh_current_label(result, f), "= "),
+                        .value = nh_analysis_answer_shown(result, f),
                         .proved = f->proof.proved,
                         .series = f->series != NULL,
                         .drift = f->drift.drift[NH_DRIFT_RUNS - 1]};
     return row;
 }
 
-nh_stage *nh_analysis_stage(const nh_analysis *r, const nh_run *run)
+nh_stage *nh_analysis_stage(const nh_analysis *result, const nh_run *run)
 {
-    const nh_validation *v = r->validation;
+    const nh_validation *v = result->validation;
     if (!v || v->count < 2) return NULL;
-    nh_stage *s = nh_arena_alloc(r->arena, sizeof *s);
-    nh_stage_row *row = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *row);
-    for (size_t k = 0; k < r->count; k++) row[k] = row_of(r, &r->found[k]);
-    const nh_observables *tracks = with_multipliers(r);
-    *s = (nh_stage){.series = nh_time_series_of_analysis(r),
+    nh_stage *s = nh_arena_alloc(result->arena, sizeof *s);
+    nh_stage_row *row = nh_arena_alloc(result->arena, (result->count + 1) * sizeof *row);
+    for (size_t k = 0; k < result->count; k++) row[k] = row_of(result, &result->found[k]);
+    const nh_observables *tracks = with_multipliers(result);
+    *s = (nh_stage){.series = nh_time_series_of_analysis(result),
                     .tracks = tracks,
-                    .live = nh_live_of_analysis(r, tracks),
-                    .command = nh_live_command(r->arena, run, r->system),
-                    .rows = r->count,
+                    .live = nh_live_of_analysis(result, tracks),
+                    .command = nh_live_command(result->arena, run, result->system),
+                    .rows = result->count,
                     .row = row};
     return s;
 }

@@ -10,9 +10,9 @@
 #include "graph/print.h"
 
 /* The spectra of both routes over the index; null values are drawn at the bottom. */
-static void spectrum_plot(nh_pen *p, const nh_analysis *r)
+static void spectrum_plot(nh_pen *p, const nh_analysis *result)
 {
-    const nh_spectrum *s[] = {&r->current, &r->symmetry};
+    const nh_spectrum *s[] = {&result->current, &result->symmetry};
     static const char *const names[] = {"current route", "symmetry route"};
     nh_curve curve[2];
     size_t most = 0, curves = 0;
@@ -61,33 +61,33 @@ static void spectrum(nh_pen *p, const char *name, const nh_spectrum *s)
     nh_pen_close(p, NH_PEN_FACT);
 }
 
-static void spectra(nh_pen *p, const nh_analysis *r)
+static void spectra(nh_pen *p, const nh_analysis *result)
 {
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
-    spectrum(p, "Current route", &r->current);
-    spectrum(p, "Symmetry route", &r->symmetry);
+    spectrum(p, "Current route", &result->current);
+    spectrum(p, "Symmetry route", &result->symmetry);
     nh_pen_close(p, NH_PEN_FACTS);
 }
 
-static void comparisons(nh_pen *p, const nh_analysis *r)
+static void comparisons(nh_pen *p, const nh_analysis *result)
 {
-    const nh_counted_space *c = &r->counted_space;
+    const nh_counted_space *c = &result->counted_space;
     if (c->compared)
         nh_pen_words(p,
                      "The current route %s with the count of degree %zu: the largest angle between a null vector and "
                      "the products of the currents is %.2g.",
                      c->agrees ? "agrees" : "DISAGREES", c->degree, c->angle);
-    if (r->routes_compared)
+    if (result->routes_compared)
         nh_pen_words(p, "The two routes %s: the angle between the spaces that they find is %.2g.",
-                     r->routes_agree ? "agree" : "DISAGREE", r->routes_angle);
+                     result->routes_agree ? "agree" : "DISAGREE", result->routes_angle);
 }
 
-static void unknown(nh_pen *p, const nh_analysis *r, const nh_special *s, size_t j)
+static void unknown(nh_pen *p, const nh_analysis *result, const nh_special *s, size_t j)
 {
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    nh_pen_say(p, "Unknown <%s> = ", nh_name_of(r->model->dag, r->analysis->unknown[j].symbol));
+    nh_pen_say(p, "Unknown <%s> = ", nh_name_of(result->model->dag, result->analysis->unknown[j].symbol));
     if (s->recognised[j]) {
-        char *text = nh_print_string(r->model->dag, s->recognised[j]);
+        char *text = nh_print_string(result->model->dag, s->recognised[j]);
         nh_pen_say(p, "<%s> = ", text);
         nh_free(text);
     }
@@ -96,43 +96,44 @@ static void unknown(nh_pen *p, const nh_analysis *r, const nh_special *s, size_t
     nh_pen_close(p, NH_PEN_WORDS);
 }
 
-static void unknowns(nh_pen *p, const nh_analysis *r)
+static void unknowns(nh_pen *p, const nh_analysis *result)
 {
-    for (size_t k = 0; r->hits && k < r->specials; k++)
-        for (size_t j = 0; j < r->hits->unknowns; j++) unknown(p, r, &r->special[k], j);
-    if (r->hits && !r->specials)
+    for (size_t k = 0; result->hits && k < result->specials; k++)
+        for (size_t j = 0; j < result->hits->unknowns; j++) unknown(p, result, &result->special[k], j);
+    if (result->hits && !result->specials)
         nh_pen_words(p, "No value of the unknowns %sgives a current.",
-                     nh_analysis_by_trial(r) ? "that was tried " : "");
+                     nh_analysis_by_trial(result) ? "that was tried " : "");
 }
 
-static void stages(nh_pen *p, const nh_analysis *r)
+static void stages(nh_pen *p, const nh_analysis *result)
 {
-    if (!r->stages) return;
-    nh_pen_table(p, nh_facts_given(r) ? "Then, by the program's own search" : "What was tried",
+    if (!result->stages) return;
+    nh_pen_table(p, nh_facts_given(result) ? "Then, by the program's own search" : "What was tried",
                  "stage|columns|null values|new currents");
-    for (size_t i = 0; i < r->stages; i++) {
-        const nh_stage_record *s = &r->stage[i];
-        if (s->skipped) nh_pen_row(p, "#%s: not tried, too large; %s|||", s->name, nh_limit_words(r->arena, &s->limit));
+    for (size_t i = 0; i < result->stages; i++) {
+        const nh_stage_record *s = &result->stage[i];
+        if (s->skipped)
+            nh_pen_row(p, "#%s: not tried, too large; %s|||", s->name, nh_limit_words(result->arena, &s->limit));
         else
             nh_pen_row(p, "#%s|%zu%s|%zu%s|%zu", s->name, s->columns,
-                       s->sectors > 1 ? nh_arena_printf(r->arena, " in %zu sectors", s->sectors) : "", s->dimension,
-                       s->undecided ? " (undecided)" : "", s->found);
+                       s->sectors > 1 ? nh_arena_printf(result->arena, " in %zu sectors", s->sectors) : "",
+                       s->dimension, s->undecided ? " (undecided)" : "", s->found);
     }
     nh_pen_table_end(p);
 }
 
-void nh_analysis_write_search(nh_pen *p, const nh_analysis *r)
+void nh_analysis_write_search(nh_pen *p, const nh_analysis *result)
 {
-    nh_pen_section(p, "search", r->count ? "How it was found" : "The search");
+    nh_pen_section(p, "search", result->count ? "How it was found" : "The search");
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    nh_pen_say(p, r->count ? "Ansatz %s. %zu sample points" : "The ansatz was %s. %zu sample points", r->ansatz_note,
-               r->samples);
-    if (r->beyond) nh_pen_say(p, " and, near where the chart breaks down, %zu in all coordinates", r->beyond);
-    nh_pen_say(p, ", %zu rejected.", r->rejected);
+    nh_pen_say(p, result->count ? "Ansatz %s. %zu sample points" : "The ansatz was %s. %zu sample points",
+               result->ansatz_note, result->samples);
+    if (result->beyond) nh_pen_say(p, " and, near where the chart breaks down, %zu in all coordinates", result->beyond);
+    nh_pen_say(p, ", %zu rejected.", result->rejected);
     nh_pen_close(p, NH_PEN_WORDS);
-    unknowns(p, r);
-    spectrum_plot(p, r);
-    spectra(p, r);
-    comparisons(p, r);
-    stages(p, r);
+    unknowns(p, result);
+    spectrum_plot(p, result);
+    spectra(p, result);
+    comparisons(p, result);
+    stages(p, result);
 }

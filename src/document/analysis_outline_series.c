@@ -18,7 +18,7 @@ static double chebyshev(const double *c, size_t degree, double s)
     return c[0] + s * b1 - b2;
 }
 
-static void series_plot(nh_pen *p, const nh_analysis *r, const nh_current *f)
+static void series_plot(nh_pen *p, const nh_analysis *result, const nh_current *f)
 {
     enum { points = 101, most = 7 };
     const nh_series *s = f->series;
@@ -37,7 +37,7 @@ static void series_plot(nh_pen *p, const nh_analysis *r, const nh_current *f)
     snprintf(title, sizeof title, "Coefficient functions of %.100s", f->name);
     nh_plot plot = {.title = title,
                     .description = "The coefficient functions over their variable",
-                    .x_label = nh_name_of(r->model->dag, s->variable),
+                    .x_label = nh_name_of(result->model->dag, s->variable),
                     .y_label = n == 1 ? name[0] : "value",
                     .curves = n,
                     .curve = curve};
@@ -64,31 +64,31 @@ static void coefficients(nh_pen *p, const nh_series *s, size_t from, size_t to)
 }
 
 /* "Each f is a Chebyshev series .." */
-static void series_words(nh_pen *p, const nh_analysis *r, const nh_series *s)
+static void series_words(nh_pen *p, const nh_analysis *result, const nh_series *s)
 {
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     nh_pen_say(p,
                "Each f is a Chebyshev series of degree %zu in <%s>, without closed form among the functions of the "
                "search, on [%.6g, %.6g].",
-               s->degree, nh_name_of(r->model->dag, s->variable), s->low, s->high);
+               s->degree, nh_name_of(result->model->dag, s->variable), s->low, s->high);
     nh_pen_close(p, NH_PEN_WORDS);
 }
 
 /* Phi = f_1(q) word_1 + ... */
-void nh_analysis_write_series(nh_pen *p, const nh_analysis *r, const nh_current *f)
+void nh_analysis_write_series(nh_pen *p, const nh_analysis *result, const nh_current *f)
 {
     enum { beside = 4 }; /* as many functions as a page is wide enough for */
     const nh_series *s = f->series;
-    const char *q = nh_name_of(r->model->dag, s->variable);
-    nh_sheet *sheet = nh_sheet_create(r->arena, r->model->dag);
-    sheet->shown = r->options.shown;
+    const char *q = nh_name_of(result->model->dag, s->variable);
+    nh_sheet *sheet = nh_sheet_create(result->arena, result->model->dag);
+    sheet->shown = result->options.shown;
     nh_sheet_begin(sheet, "", "", "");
     nh_sheet_sum(sheet, "", nh_sheet_label(sheet, "<%s>", f->name));
     for (size_t i = 0; i < s->words; i++)
         nh_sheet_add(sheet, s->word[i], nh_sheet_label(sheet, "f_{%zu}(<%s>)", i + 1, q));
     nh_pen_sheet(p, sheet);
-    series_words(p, r, s);
-    series_plot(p, r, f);
+    series_words(p, result, s);
+    series_plot(p, result, f);
     if (p->ink->brief) return; /* the JSON has all of them */
     nh_pen_open(p, NH_PEN_FOLD, NULL, "Chebyshev coefficients");
     for (size_t i = 0; i < s->words; i += beside) coefficients(p, s, i, i + beside < s->words ? i + beside : s->words);

@@ -13,9 +13,9 @@
 
 /* ---- facts ---- */
 
-nh_ex nh_classification_formula(const nh_analysis *r, const nh_current *f)
+nh_ex nh_classification_formula(const nh_analysis *result, const nh_current *f)
 {
-    return f->has_in_velocities ? f->in_velocities : nh_chart_shown(r->model->chart, f->phi);
+    return f->has_in_velocities ? f->in_velocities : nh_chart_shown(result->model->chart, f->phi);
 }
 
 bool nh_classification_is_exact(const nh_classify_row *row) { return row->number.bound == row->known; }
@@ -126,13 +126,14 @@ const char *nh_classification_zeros(const nh_classified *x, const nh_special_fac
 /* "integrals polynomial in the velocities, over eps, with coefficients ..., on the level ..., with k = 2" */
 void nh_classification_head(const nh_classified *x, nh_text *out)
 {
-    const nh_system *s = x->almost_all->system;
+    const nh_system *system = x->almost_all->system;
     nh_text_addf(out, "Classified: %s, over ", WORDS[x->of].subject);
     for (size_t v = x->parameters; v-- > 0;)
         nh_text_addf(out, "%s%s", x->over[v], v > 1 ? ", " : v == 1 ? " and " : "");
     nh_text_add(out, x->shape ? ", with coefficients that do not depend on cyclic coordinates" : "");
-    for (size_t i = s->constraints - s->levels; i < s->constraints; i++)
-        nh_text_addf(out, "%s%s", i == s->constraints - s->levels ? ", on the level " : ", ", s->constraint[i].text);
+    for (size_t i = system->constraints - system->levels; i < system->constraints; i++)
+        nh_text_addf(out, "%s%s", i == system->constraints - system->levels ? ", on the level " : ", ",
+                     system->constraint[i].text);
     for (size_t i = 0; i < x->fixed; i++) {
         char digits[32];
         nh_text_number(x->other[i].value, digits, sizeof digits);

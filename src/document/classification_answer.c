@@ -10,9 +10,9 @@
 
 /* ---- what is conserved at a place ---- */
 
-static char *text_of(const nh_analysis *r, const nh_current *f)
+static char *text_of(const nh_analysis *result, const nh_current *f)
 {
-    return nh_print_string(r->model->dag, nh_current_signed(r, f, nh_classification_formula(r, f)));
+    return nh_print_string(result->model->dag, nh_current_signed(result, f, nh_classification_formula(result, f)));
 }
 
 /* Is the quantity one of those for almost all values?  Their meanings agree (energy, momenta), or their texts. */
@@ -34,16 +34,16 @@ static void put_currents(const nh_classified *x, const nh_classified_finding *at
                          nh_text *block)
 {
     enum { most_lines = 4 };
-    const nh_analysis *r = at->result;
+    const nh_analysis *result = at->result;
     for (size_t k = 0; k < at->count; k++) {
         size_t i = at->index ? at->index[k] : k;
-        const nh_current *f = nh_classified_current(r, i);
-        bool further = i >= r->count && r->further[i - r->count].degree <= first,
-             follows = f->independence == NH_DEPENDENT || i >= r->count;
+        const nh_current *f = nh_classified_current(result, i);
+        bool further = i >= result->count && result->further[i - result->count].degree <= first,
+             follows = f->independence == NH_DEPENDENT || i >= result->count;
         if (!f->proof.proved || f->series || (!all && follows && !further)) continue;
-        char *text = text_of(r, f);
+        char *text = text_of(result, f);
         if (all || !is_known(x, f, text))
-            nh_screen_put(block, colour, 2, nh_current_label(r, f), text, most_lines, NULL);
+            nh_screen_put(block, colour, 2, nh_current_label(result, f), text, most_lines, NULL);
         nh_free(text);
     }
 }

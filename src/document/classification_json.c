@@ -32,23 +32,23 @@ static void put_head(const nh_classified *x, nh_json *root)
     for (size_t i = 0; i < x->fixed; i++) nh_json_put_number(parameters, x->other[i].name, x->other[i].value);
     nh_json_put_text(root, "of", nh_linear_question_name(x->of));
     nh_json_put_bool(root, "shape", x->shape);
-    const nh_system *s = x->almost_all->system;
+    const nh_system *system = x->almost_all->system;
     nh_json *levels = nh_json_put_array(root, "levels");
-    for (size_t i = s->constraints - s->levels; i < s->constraints; i++)
-        nh_json_add_text(levels, s->constraint[i].text);
+    for (size_t i = system->constraints - system->levels; i < system->constraints; i++)
+        nh_json_add_text(levels, system->constraint[i].text);
     nh_json_put_text(root, "where", nh_classification_side(x));
     nh_json_put_number(root, "degree", (double)x->degree);
 }
 
 /* The currents proved at a place or for almost all values; "current" is null when it is longer than the option
  * `written`. */
-static void put_currents(const nh_analysis *r, size_t count, const size_t *index, nh_json *to)
+static void put_currents(const nh_analysis *result, size_t count, const size_t *index, nh_json *to)
 {
     nh_json *list = nh_json_put_array(to, "currents");
-    for (size_t k = 0; r && k < count; k++) {
-        const nh_current *f = nh_classified_current(r, index ? index[k] : k);
+    for (size_t k = 0; result && k < count; k++) {
+        const nh_current *f = nh_classified_current(result, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
-        char *text = nh_print_short(r->model->dag, nh_classification_formula(r, f), r->options.written);
+        char *text = nh_print_short(result->model->dag, nh_classification_formula(result, f), result->options.written);
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "name", f->name);
         nh_json_put_text(item, "current", text);

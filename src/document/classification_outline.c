@@ -26,14 +26,14 @@ static void write_lines(pen *p, nh_text *text)
 
 /* The currents with these indices (NULL: the first ones), also functions of others that are polynomial in the
  * velocities: the numbers by degree count them. */
-static void write_currents(pen *p, const nh_analysis *r, size_t count, const size_t *index)
+static void write_currents(pen *p, const nh_analysis *result, size_t count, const size_t *index)
 {
     for (size_t k = 0; k < count; k++) {
-        const nh_current *f = nh_classified_current(r, index ? index[k] : k);
+        const nh_current *f = nh_classified_current(result, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
-        nh_ex e = nh_current_signed(r, f, nh_classification_formula(r, f));
-        char *text = nh_print_short(r->model->dag, e, r->options.shown);
-        if (text) p->ink->equation(p->to, strcmp(nh_current_label(r, f), "E = ") ? f->name : "E", text);
+        nh_ex e = nh_current_signed(result, f, nh_classification_formula(result, f));
+        char *text = nh_print_short(result->model->dag, e, result->options.shown);
+        if (text) p->ink->equation(p->to, strcmp(nh_current_label(result, f), "E = ") ? f->name : "E", text);
         else nh_pen_words(p, "A longer current (option `shown`).");
         nh_free(text);
     }
@@ -153,10 +153,10 @@ void nh_classification_write(const nh_classified *x, const nh_run *run, nh_pen_s
         nh_classification_write_answer(x, style.colour, out);
         return;
     }
-    const nh_analysis *r = x->almost_all;
-    nh_pen_subject subject = {.system = r->system,
-                              .dag = r->model->dag,
-                              .chart = r->model->chart,
+    const nh_analysis *result = x->almost_all;
+    nh_pen_subject subject = {.system = result->system,
+                              .dag = result->model->dag,
+                              .chart = result->model->chart,
                               .shown = run->shown,
                               .open = {x->over[0], x->over[1], x->over[2]}};
     pen all, *p = &all;
@@ -173,7 +173,7 @@ void nh_classification_write(const nh_classified *x, const nh_run *run, nh_pen_s
                                          "words|Words|repeat|Repeat it",
                                          picture[x->parameters - 1]));
     if (!x->classification->obstacle) write_sections(x, p);
-    nh_pen_system(p, r->model, NULL);
+    nh_pen_system(p, result->model, NULL);
     nh_pen_glossary(p, "current, degree, proved, complete");
     nh_pen_end(p, run);
 }

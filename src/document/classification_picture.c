@@ -68,11 +68,12 @@ static void widen_by_zeros(drawing *d, const nh_special_factor *s)
 static void choose_window(drawing *d)
 {
     const nh_classified *x = d->of;
-    const nh_system *s = x->almost_all->system;
+    const nh_system *system = x->almost_all->system;
     double at[most_crossings][2];
-    for (size_t i = 0; i < s->parameters; i++)
+    for (size_t i = 0; i < system->parameters; i++)
         for (int v = 0; v < 2; v++)
-            if (s->parameter[i].name && !strcmp(s->parameter[i].name, x->over[v])) widen(d, v, s->parameter[i].value);
+            if (system->parameter[i].name && !strcmp(system->parameter[i].name, x->over[v]))
+                widen(d, v, system->parameter[i].value);
     for (size_t k = 0; k < x->places && x->parameters == 3; k++) {
         size_t count = place_of(d, k, 1) ? crossings(d, &x->place[k], at) : 0;
         for (size_t i = 0; i < 2 * count; i++) widen(d, (int)(i % 2), at[i / 2][i % 2]);
@@ -207,11 +208,11 @@ void nh_classification_picture(const nh_classified *x, nh_pen *pen)
 {
     double nu[most_slices] = {0}, own = 1;
     size_t count = x->parameters == 2;
-    const nh_system *s = x->almost_all->system;
+    const nh_system *system = x->almost_all->system;
     if (!x->classification->rows) return;
     if (x->parameters == 3) {
-        for (size_t i = 0; i < s->parameters; i++)
-            if (!strcmp(s->parameter[i].name, x->over[2])) own = s->parameter[i].value;
+        for (size_t i = 0; i < system->parameters; i++)
+            if (!strcmp(system->parameter[i].name, x->over[2])) own = system->parameter[i].value;
         own = own == 0 ? 1 : round(own * 100) / 100;
         add_slice(nu, &count, own);
         for (size_t k = 0; k < x->places; k++)

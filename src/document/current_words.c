@@ -17,38 +17,40 @@ enum { most = 3, NOT_CENTRAL = 0, INVERSE = -1, ELASTIC = 2 };
 static bool vanishes(nh_dag *d, nh_ex e) { return nh_is_zero(d, nh_simplify(d, e)); }
 
 /* The mass of a point in two or three Cartesian coordinates, and V = m v^2/2 - L of (q); 0: it is no such point. */
-static nh_ex point_mass(const nh_model *o, nh_ex *V)
+static nh_ex point_mass(const nh_model *model, nh_ex *V)
 {
-    nh_dag *d = o->dag;
-    const nh_system *s = o->system;
+    nh_dag *d = model->dag;
+    const nh_system *system = model->system;
     nh_ex kinetic = nh_int(d, 0), m = 0;
-    if (o->k || o->m < 2 || o->m > most || o->n != o->m || o->framed || o->chart->quasi || s->orientations) return 0;
-    for (size_t i = 0; i < o->m; i++) {
-        nh_ex v = s->coordinate[i].v;
-        if (s->coordinate[i].type == NH_ANGLE) return 0;
-        nh_ex own = nh_simplify(d, nh_diff(d, nh_diff(d, s->lagrangian, v), v));
+    if (model->k || model->m < 2 || model->m > most || model->n != model->m || model->framed || model->chart->quasi ||
+        system->orientations)
+        return 0;
+    for (size_t i = 0; i < model->m; i++) {
+        nh_ex v = system->coordinate[i].v;
+        if (system->coordinate[i].type == NH_ANGLE) return 0;
+        nh_ex own = nh_simplify(d, nh_diff(d, nh_diff(d, system->lagrangian, v), v));
         if (i && !vanishes(d, nh_sub(d, own, m))) return 0;
         m = own;
         kinetic = nh_add(d, kinetic, nh_mul(d, m, nh_mul(d, v, v)));
     }
-    if (!nh_model_is_constant(o, m) || nh_is_zero(d, m)) return 0;
-    *V = nh_simplify(d, nh_sub(d, nh_div(d, kinetic, nh_int(d, 2)), s->lagrangian));
-    for (size_t i = 0; i < o->m; i++)
-        if (nh_depends(d, *V, s->coordinate[i].v)) return 0;
-    return nh_depends(d, *V, s->t) ? 0 : m;
+    if (!nh_model_is_constant(model, m) || nh_is_zero(d, m)) return 0;
+    *V = nh_simplify(d, nh_sub(d, nh_div(d, kinetic, nh_int(d, 2)), system->lagrangian));
+    for (size_t i = 0; i < model->m; i++)
+        if (nh_depends(d, *V, system->coordinate[i].v)) return 0;
+    return nh_depends(d, *V, system->t) ? 0 : m;
 }
 
 /* The power of the distance that V is, INVERSE or ELASTIC; NOT_CENTRAL: another function. */
-static int power_of(const nh_model *o, nh_ex V)
+static int power_of(const nh_model *model, nh_ex V)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex radial = nh_int(d, 0), slope[most], *x = (nh_ex[most]){0};
-    for (size_t i = 0; i < o->m; i++) {
-        x[i] = o->system->coordinate[i].q;
+    for (size_t i = 0; i < model->m; i++) {
+        x[i] = model->system->coordinate[i].q;
         slope[i] = nh_diff(d, V, x[i]);
         radial = nh_add(d, radial, nh_mul(d, x[i], slope[i]));
     }
-    for (size_t i = 0; i < o->m; i++)
+    for (size_t i = 0; i < model->m; i++)
         for (size_t j = 0; j < i; j++)
             if (!vanishes(d, nh_sub(d, nh_mul(d, x[i], slope[j]), nh_mul(d, x[j], slope[i])))) return NOT_CENTRAL;
     if (vanishes(d, V)) return NOT_CENTRAL;
@@ -58,44 +60,44 @@ static int power_of(const nh_model *o, nh_ex V)
 }
 
 /* The components and their names; how many. */
-static size_t components(const nh_analysis *r, int power, nh_ex m, nh_ex V, nh_ex *e, const char **name)
+static size_t components(const nh_analysis *result, int power, nh_ex m, nh_ex V, nh_ex *e, const char **name)
 {
-    const nh_model *o = r->model;
-    nh_dag *d = o->dag;
-    const nh_coordinate *c = o->system->coordinate;
+    const nh_model *model = result->model;
+    nh_dag *d = model->dag;
+    const nh_coordinate *c = model->system->coordinate;
     nh_ex square = nh_int(d, 0), along = nh_int(d, 0);
     size_t n = 0;
-    for (size_t i = 0; i < o->m; i++) {
+    for (size_t i = 0; i < model->m; i++) {
         square = nh_add(d, square, nh_mul(d, c[i].v, c[i].v));
         along = nh_add(d, along, nh_mul(d, c[i].q, c[i].v));
     }
-    for (size_t i = 0; i < o->m && power == INVERSE; i++, n++) {
+    for (size_t i = 0; i < model->m && power == INVERSE; i++, n++) {
         nh_ex bilinear = nh_sub(d, nh_mul(d, c[i].q, square), nh_mul(d, c[i].v, along));
         e[n] = nh_add(d, nh_mul(d, m, bilinear), nh_mul(d, c[i].q, V));
         name[n] = c[i].name;
     }
-    for (size_t i = 0; i < o->m && power == ELASTIC; i++)
+    for (size_t i = 0; i < model->m && power == ELASTIC; i++)
         for (size_t j = 0; j <= i; j++, n++) {
             nh_ex stiffness = nh_diff(d, nh_diff(d, V, c[i].q), c[i].q);
             e[n] = nh_add(d, nh_mul(d, m, nh_mul(d, c[i].v, c[j].v)), nh_mul(d, stiffness, nh_mul(d, c[i].q, c[j].q)));
-            name[n] = nh_arena_printf(r->arena, "%s%s", c[j].name, c[i].name);
+            name[n] = nh_arena_printf(result->arena, "%s%s", c[j].name, c[i].name);
         }
     return n;
 }
 
-static const char *of_point(const nh_analysis *r, nh_ex phi, const char **of)
+static const char *of_point(const nh_analysis *result, nh_ex phi, const char **of)
 {
     enum { terms = 2000 };
-    const nh_model *o = r->model;
-    nh_ex V, m = point_mass(o, &V), e[most * (most + 1) / 2 + 1], c[most * (most + 1) / 2];
+    const nh_model *model = result->model;
+    nh_ex V, m = point_mass(model, &V), e[most * (most + 1) / 2 + 1], c[most * (most + 1) / 2];
     const char *name[most * (most + 1) / 2];
-    int power = m ? power_of(o, V) : NOT_CENTRAL;
-    size_t n = power == NOT_CENTRAL ? 0 : components(r, power, m, V, e, name), used = 0;
+    int power = m ? power_of(model, V) : NOT_CENTRAL;
+    size_t n = power == NOT_CENTRAL ? 0 : components(result, power, m, V, e, name), used = 0;
     if (!n) return "";
     e[n] = phi;
-    if (!nh_relation_express(o->dag, n + 1, e, o->system->parameters, o->parameter, terms, c)) return "";
+    if (!nh_relation_express(model->dag, n + 1, e, model->system->parameters, model->parameter, terms, c)) return "";
     for (size_t i = 0; i < n; i++)
-        if (!nh_is_zero(o->dag, c[i])) *of = name[i], used++;
+        if (!nh_is_zero(model->dag, c[i])) *of = name[i], used++;
     if (used != 1) *of = "";
     if (power == INVERSE)
         return used == 1 ? "Laplace-Runge-Lenz vector along" : "Component of the Laplace-Runge-Lenz vector";
@@ -103,16 +105,18 @@ static const char *of_point(const nh_analysis *r, nh_ex phi, const char **of)
 }
 
 /* "Component of the Laplace-Runge-Lenz vector along", "Quadratic in the velocities", or ""; of: what follows it. */
-static const char *name_of_form(const nh_analysis *r, nh_ex phi, const char **of)
+static const char *name_of_form(const nh_analysis *result, nh_ex phi, const char **of)
 {
     static const char *const form[] = {"A function of the positions", "Linear in the velocities",
                                        "Quadratic in the velocities", "Cubic in the velocities",
                                        "Of degree 4 in the velocities"};
-    double degree = nh_counted_degree_of(r->model, phi);
+    double degree = nh_counted_degree_of(result->model, phi);
     *of = "";
-    const char *name = degree == 2 && !nh_depends(r->model->dag, phi, r->system->t) ? of_point(r, phi, of) : "";
+    const char *name =
+        degree == 2 && !nh_depends(result->model->dag, phi, result->system->t) ? of_point(result, phi, of) : "";
     if (*name) return name;
-    if (degree == 0 && nh_depends(r->model->dag, phi, r->system->t)) return "A function of time and positions";
+    if (degree == 0 && nh_depends(result->model->dag, phi, result->system->t))
+        return "A function of time and positions";
     return degree < sizeof form / sizeof *form ? form[(size_t)degree] : "";
 }
 
@@ -122,46 +126,46 @@ static bool is_minus(const nh_current *f) { return !strncmp(f->meaning, "minus",
 
 bool nh_current_is_energy(const nh_current *f) { return f->energy && (!strcmp(f->meaning, "energy") || is_minus(f)); }
 
-nh_ex nh_current_signed(const nh_analysis *r, const nh_current *f, nh_ex e)
+nh_ex nh_current_signed(const nh_analysis *result, const nh_current *f, nh_ex e)
 {
-    return is_minus(f) ? nh_neg(r->model->dag, e) : e;
+    return is_minus(f) ? nh_neg(result->model->dag, e) : e;
 }
 
-const char *nh_current_label(const nh_analysis *r, const nh_current *f)
+const char *nh_current_label(const nh_analysis *result, const nh_current *f)
 {
-    nh_dag *d = r->model->dag;
+    nh_dag *d = result->model->dag;
     if (nh_current_is_energy(f) && !nh_depends(d, f->phi, nh_symbol(d, "E"))) return "E = ";
     const char *of = strstr(f->meaning, "momentum of ");
     bool bare = of && (of == f->meaning || !strncmp(f->meaning, "minus the ", 10));
-    const char *p = bare ? nh_arena_printf(r->arena, "p_%s", of + strlen("momentum of ")) : NULL;
-    return p && !nh_depends(d, f->phi, nh_symbol(d, p)) ? nh_arena_printf(r->arena, "%s = ", p) : "";
+    const char *p = bare ? nh_arena_printf(result->arena, "p_%s", of + strlen("momentum of ")) : NULL;
+    return p && !nh_depends(d, f->phi, nh_symbol(d, p)) ? nh_arena_printf(result->arena, "%s = ", p) : "";
 }
 
-const char *nh_current_energy_named(const nh_analysis *r)
+const char *nh_current_energy_named(const nh_analysis *result)
 {
-    const nh_system *s = r->system;
+    const nh_system *system = result->system;
     const nh_named *kinetic = NULL, *potential = NULL;
-    for (size_t i = 0; i < s->definitions; i++) {
-        const nh_named *x = &s->definition[i];
+    for (size_t i = 0; i < system->definitions; i++) {
+        const nh_named *x = &system->definition[i];
         if (!strcmp(x->name, "T")) kinetic = x;
         else if (!strcmp(x->name, "V") || (!potential && !strcmp(x->name, "U"))) potential = x;
     }
-    nh_dag *d = r->model->dag;
+    nh_dag *d = result->model->dag;
     if (!kinetic || !potential) return NULL;
-    nh_ex sum = nh_model_compose(r->model, nh_add(d, kinetic->value, potential->value));
-    bool equal = nh_normal_is_zero(d, nh_sub(d, r->model->E, sum), 0) == NH_ZERO;
-    return equal ? nh_arena_printf(r->arena, "T + %s", potential->name) : NULL;
+    nh_ex sum = nh_model_compose(result->model, nh_add(d, kinetic->value, potential->value));
+    bool equal = nh_normal_is_zero(d, nh_sub(d, result->model->E, sum), 0) == NH_ZERO;
+    return equal ? nh_arena_printf(result->arena, "T + %s", potential->name) : NULL;
 }
 
 /* ---- sentences ---- */
 
-static const char *capital(const nh_analysis *r, const char *text)
+static const char *capital(const nh_analysis *result, const char *text)
 {
-    return nh_arena_printf(r->arena, "%c%s", toupper((unsigned char)*text), text + 1);
+    return nh_arena_printf(result->arena, "%c%s", toupper((unsigned char)*text), text + 1);
 }
 
 /* The name by its meaning, by rotations, by its form; and what the system's file says of it. */
-static void name_it(const nh_analysis *r, const nh_current *f, bool rotations, nh_current_words *out)
+static void name_it(const nh_analysis *result, const nh_current *f, bool rotations, nh_current_words *out)
 {
     static const char minus[] = "minus the ", multiple[] = "a multiple of the ", momentum[] = "momentum of ";
     const char *m = f->meaning;
@@ -169,18 +173,19 @@ static void name_it(const nh_analysis *r, const nh_current *f, bool rotations, n
     const char *of = strstr(m, momentum), *before = !strncmp(m, multiple, strlen(multiple)) ? multiple : "";
     if (of) of += strlen(momentum);
     bool angle = false;
-    for (size_t s = 0; of && s < r->system->coordinates; s++)
-        angle |= !strcmp(of, r->system->coordinate[s].name) && r->system->coordinate[s].type == NH_ANGLE;
-    out->name = of ? capital(r, nh_arena_printf(r->arena, "%s%smomentum conjugate to", before, angle ? "angular " : ""))
-                : *m        ? capital(r, m)
+    for (size_t s = 0; of && s < result->system->coordinates; s++)
+        angle |= !strcmp(of, result->system->coordinate[s].name) && result->system->coordinate[s].type == NH_ANGLE;
+    out->name = of          ? capital(result, nh_arena_printf(result->arena, "%s%smomentum conjugate to", before,
+                                                     angle ? "angular " : ""))
+                : *m        ? capital(result, m)
                 : rotations ? "Angular momentum"
                             : "";
     out->of = of ? of : "";
-    if (f->doc) out->doc = *out->name ? f->doc : capital(r, f->doc);
-    else if (!*out->name && !f->series) out->name = name_of_form(r, f->phi, &out->of);
+    if (f->doc) out->doc = *out->name ? f->doc : capital(result, f->doc);
+    else if (!*out->name && !f->series) out->name = name_of_form(result, f->phi, &out->of);
 }
 
-nh_current_words nh_current_words_of(const nh_analysis *r, const nh_current *f, bool symmetry, const char *proof)
+nh_current_words nh_current_words_of(const nh_analysis *result, const nh_current *f, bool symmetry, const char *proof)
 {
     nh_current_words out = {.of = "", .doc = "", .how = "", .what = ""};
     nh_text what, rest;
@@ -188,14 +193,14 @@ nh_current_words nh_current_words_of(const nh_analysis *r, const nh_current *f, 
     nh_text_init(&rest);
     const char *how = "";
     bool follows = f->independence == NH_DEPENDENT;
-    bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(r->model, &f->symmetry, &how, &what);
-    name_it(r, f, rotations, &out);
-    if (symmetry && !follows) out.how = how, out.what = nh_arena_strdup(r->arena, nh_text_string(&what));
+    bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(result->model, &f->symmetry, &how, &what);
+    name_it(result, f, rotations, &out);
+    if (symmetry && !follows) out.how = how, out.what = nh_arena_strdup(result->arena, nh_text_string(&what));
     if (follows) nh_text_add(&rest, "Follows from the others. ");
     if (f->independence == NH_DOUBTFUL) nh_text_add(&rest, "Perhaps it follows from the others. ");
     if (f->independence == NH_CONSTANT) nh_text_add(&rest, "It has the same value at all states. ");
     if (proof) nh_text_addf(&rest, "%s%s.", f->proof.proved ? "Proved" : "", proof);
-    out.rest = nh_arena_strdup(r->arena, nh_text_string(&rest));
+    out.rest = nh_arena_strdup(result->arena, nh_text_string(&rest));
     nh_text_clear(&what);
     nh_text_clear(&rest);
     return out;

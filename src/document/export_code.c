@@ -8,11 +8,11 @@
 
 const char *const *nh_export_members(const nh_export *x, const nh_source_language *language, nh_arena *arena)
 {
-    const nh_system *s = x->system;
-    const char **out = nh_arena_alloc(arena, (s->parameters + 1) * sizeof *out);
-    nh_source *names = nh_source_create(language, s->dag, NULL);
-    for (size_t i = 0; i < s->parameters; i++)
-        out[i] = nh_arena_strdup(arena, nh_source_word(names, s->parameter[i].name));
+    const nh_system *system = x->system;
+    const char **out = nh_arena_alloc(arena, (system->parameters + 1) * sizeof *out);
+    nh_source *names = nh_source_create(language, system->dag, NULL);
+    for (size_t i = 0; i < system->parameters; i++)
+        out[i] = nh_arena_strdup(arena, nh_source_word(names, system->parameter[i].name));
     nh_source_free(names);
     return out;
 }

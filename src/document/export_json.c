@@ -117,19 +117,19 @@ static void put_function(const nh_export *x, const nh_export_function *f, nh_jso
 
 char *nh_export_json(const nh_export *x, const nh_run *run)
 {
-    const nh_system *s = x->system;
+    const nh_system *system = x->system;
     nh_json *root = nh_json_object();
     nh_json_put_number(root, "schema", 1);
     nh_json_put_text(root, "version", NH_VERSION);
-    nh_json_put_text(root, "system", s->name);
+    nh_json_put_text(root, "system", system->name);
     nh_json *coordinates = nh_json_put_array(root, "coordinates"), *inputs = nh_json_put_array(root, "inputs");
-    for (size_t i = 0; i < s->coordinates; i++) nh_json_add_text(coordinates, s->coordinate[i].name);
-    for (size_t i = 0; i < s->parameters; i++)
-        if (x->input[i]) nh_json_add_text(inputs, s->parameter[i].name);
+    for (size_t i = 0; i < system->coordinates; i++) nh_json_add_text(coordinates, system->coordinate[i].name);
+    for (size_t i = 0; i < system->parameters; i++)
+        if (x->input[i]) nh_json_add_text(inputs, system->parameter[i].name);
     nh_json *functions = nh_json_put_array(root, "functions"), *notes = nh_json_put_array(root, "notes");
     for (size_t i = 0; i < x->functions; i++) put_function(x, &x->function[i], functions);
     for (size_t i = 0; i < x->notes; i++) nh_json_add_text(notes, x->note[i]);
     nh_json_put_bool(root, "partial", x->partial);
-    if (run) nh_run_json(run, s, root);
+    if (run) nh_run_json(run, system, root);
     return nh_json_finish(root);
 }

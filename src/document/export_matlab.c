@@ -98,7 +98,7 @@ static const nh_export_form form = {&nh_source_matlab, begin, unpack, parameter,
 
 void nh_export_matlab(const nh_export *x, const char *prefix, nh_text *out)
 {
-    const nh_system *s = x->system;
+    const nh_system *system = x->system;
     nh_arena *arena = nh_arena_create();
     const char *const *member = nh_export_members(x, &nh_source_matlab, arena);
     nh_text head;
@@ -111,9 +111,9 @@ void nh_export_matlab(const nh_export *x, const char *prefix, nh_text *out)
     put_comment("", nh_text_string(&head), out);
     nh_text_clear(&head);
     nh_text_add(out, "    api = struct();\n    api.parameters = struct();\n");
-    for (size_t i = 0; i < s->parameters; i++) {
+    for (size_t i = 0; i < system->parameters; i++) {
         char text[40];
-        nh_text_number(s->parameter[i].value, text, sizeof text);
+        nh_text_number(system->parameter[i].value, text, sizeof text);
         if (!x->input[i]) nh_text_addf(out, "    api.parameters.%s = %s;\n", member[i], text);
     }
     for (size_t i = 0; i < x->functions; i++)

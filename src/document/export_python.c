@@ -179,26 +179,26 @@ static void end(nh_export_body *b)
 
 static void put_parameters(const module *p)
 {
-    const nh_system *s = p->x->system;
+    const nh_system *system = p->x->system;
     nh_text_add(p->out, "\n\nParameters = namedtuple(\"Parameters\", [");
-    for (size_t i = 0, k = 0; i < s->parameters; i++)
+    for (size_t i = 0, k = 0; i < system->parameters; i++)
         if (!p->x->input[i]) nh_text_addf(p->out, "%s\"%s\"", k++ ? ", " : "", p->member[i]);
     nh_text_add(p->out, "])\n");
     nh_text_add(p->out, p->sympy ? "#: symbols\nparameters = Parameters("
                                  : "#: the values of the system file\nparameters = Parameters(");
-    for (size_t i = 0, k = 0; i < s->parameters; i++) {
+    for (size_t i = 0, k = 0; i < system->parameters; i++) {
         char text[40];
-        nh_text_number(s->parameter[i].value, text, sizeof text);
+        nh_text_number(system->parameter[i].value, text, sizeof text);
         if (p->x->input[i]) continue;
         nh_text_addf(p->out, p->sympy ? "%s%s=sp.Symbol(\"%s\", real=True)" : "%s%s=%s", k++ ? ", " : "", p->member[i],
-                     p->sympy ? s->parameter[i].name : text);
+                     p->sympy ? system->parameter[i].name : text);
     }
     nh_text_add(p->out, ")\n");
     if (!p->sympy) return;
     nh_text_add(p->out, "#: their values in the system file\nvalues = {");
-    for (size_t i = 0, k = 0; i < s->parameters; i++) {
+    for (size_t i = 0, k = 0; i < system->parameters; i++) {
         char text[40];
-        nh_text_number(s->parameter[i].value, text, sizeof text);
+        nh_text_number(system->parameter[i].value, text, sizeof text);
         if (!p->x->input[i]) nh_text_addf(p->out, "%sparameters.%s: %s", k++ ? ", " : "", p->member[i], text);
     }
     nh_text_add(p->out, "}\n");
@@ -214,17 +214,18 @@ static void put_symbol_list(const module *p, const char *name, size_t n, const c
 /* The symbols with which to call the functions. */
 static void put_symbols(const module *p)
 {
-    const nh_system *s = p->x->system;
+    const nh_system *system = p->x->system;
     nh_arena *arena = nh_arena_create();
-    const char **name = nh_arena_alloc(arena, (s->coordinates + s->parameters + 1) * sizeof *name);
+    const char **name = nh_arena_alloc(arena, (system->coordinates + system->parameters + 1) * sizeof *name);
     size_t n = 0;
     nh_text_add(p->out, "\n#: the time, coordinates and velocities\nt = sp.Symbol(\"t\", real=True)\n");
-    for (size_t i = 0; i < s->coordinates; i++) name[i] = s->coordinate[i].name;
-    put_symbol_list(p, "q", s->coordinates, name);
-    for (size_t i = 0; i < s->coordinates; i++) name[i] = nh_arena_printf(arena, "%s'", s->coordinate[i].name);
-    put_symbol_list(p, "v", s->coordinates, name);
-    for (size_t i = 0; i < s->parameters; i++)
-        if (p->x->input[i]) name[n++] = s->parameter[i].name;
+    for (size_t i = 0; i < system->coordinates; i++) name[i] = system->coordinate[i].name;
+    put_symbol_list(p, "q", system->coordinates, name);
+    for (size_t i = 0; i < system->coordinates; i++)
+        name[i] = nh_arena_printf(arena, "%s'", system->coordinate[i].name);
+    put_symbol_list(p, "v", system->coordinates, name);
+    for (size_t i = 0; i < system->parameters; i++)
+        if (p->x->input[i]) name[n++] = system->parameter[i].name;
     if (n) put_symbol_list(p, "inputs", n, name);
     nh_arena_free(arena);
 }

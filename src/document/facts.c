@@ -49,22 +49,22 @@ static void ranks(nh_text *out, const char *before, size_t n, const size_t *rank
     for (size_t i = 0; i < n; i++) nh_text_addf(out, "%s%zu", i ? "," : before, rank[i]);
 }
 
-void nh_facts_constraint(const nh_analysis *r, nh_text *out)
+void nh_facts_constraint(const nh_analysis *result, nh_text *out)
 {
     static const char *const spaces[] = {"growth vector ", "growth vector with time ",
                                          "growth vector on the submanifold "};
-    const nh_distribution *d = &r->constraint;
+    const nh_distribution *d = &result->constraint;
     const nh_growth *g = &d->growth;
     nh_text_addf(out, "%s%s constraint%s%s (%s", d->type == NH_NONLINEAR && d->homogeneous ? "homogeneous " : "",
-                 nh_constraint_type_name(d->type), r->model->k == 1 ? "" : "s", d->rheonomic ? ", time-dependent" : "",
-                 nh_constraint_integrability(r->model, d));
+                 nh_constraint_type_name(d->type), result->model->k == 1 ? "" : "s",
+                 d->rheonomic ? ", time-dependent" : "", nh_constraint_integrability(result->model, d));
     if (g->length > 1) {
         nh_text_add(out, "; ");
         ranks(out, spaces[g->space], g->length, g->rank);
         if (g->cut) nh_text_add(out, ",...");
     }
     if (g->drops) {
-        if (g->where) nh_text_addf(out, ", at %s = 0 ", nh_name_of(r->model->dag, g->where));
+        if (g->where) nh_text_addf(out, ", at %s = 0 ", nh_name_of(result->model->dag, g->where));
         ranks(out, g->where ? "" : ", at the origin ", g->length_there, g->rank_there);
     }
     nh_text_addf(out, ")%s", g->proved ? "" : g->by_numbers ? " (by numbers)" : " (modulo primes)");
@@ -97,9 +97,9 @@ void nh_facts_symmetry(const nh_symmetry *z, nh_facts_form form, const char *bet
     if (z->projectable) nh_text_addf(out, "; %s is projectable", s->Z);
 }
 
-const char *nh_facts_equations(const nh_model *o)
+const char *nh_facts_equations(const nh_model *model)
 {
-    return o->k ? "Equations of motion on the constraint submanifold" : "Equations of motion";
+    return model->k ? "Equations of motion on the constraint submanifold" : "Equations of motion";
 }
 
 const char *nh_facts_drift(const nh_drift *d)
@@ -112,117 +112,119 @@ const char *nh_facts_drift(const nh_drift *d)
 }
 
 /* Only where some parameters are fixed and some are not is there something to say. */
-static bool some_fixed(const nh_model *o, const nh_proof *p)
+static bool some_fixed(const nh_model *model, const nh_proof *p)
 {
-    return p->proved && p->fixed && !nh_fixed_all(o, p->fixed);
+    return p->proved && p->fixed && !nh_fixed_all(model, p->fixed);
 }
 
-const char *nh_facts_holds(const nh_model *o, const nh_proof *p, bool names)
+const char *nh_facts_holds(const nh_model *model, const nh_proof *p, bool names)
 {
     enum { most_named = 6 };
-    const nh_system *s = o->system;
-    if (!s->parameters) return "";
-    if (some_fixed(o, p)) return nh_arena_printf(o->arena, " for %s", nh_fixed_text(o, p->fixed));
+    const nh_system *system = model->system;
+    if (!system->parameters) return "";
+    if (some_fixed(model, p)) return nh_arena_printf(model->arena, " for %s", nh_fixed_text(model, p->fixed));
     if (!p->all_parameters) return " for these parameter values only";
-    if (!names || s->parameters > most_named) return " for all parameter values";
+    if (!names || system->parameters > most_named) return " for all parameter values";
     nh_text text;
     nh_text_init(&text);
-    for (size_t i = 0; i < s->parameters; i++)
-        nh_text_addf(&text, "%s%s", i ? ", " : " for all ", s->parameter[i].name);
-    const char *out = nh_arena_strdup(o->arena, nh_text_string(&text));
+    for (size_t i = 0; i < system->parameters; i++)
+        nh_text_addf(&text, "%s%s", i ? ", " : " for all ", system->parameter[i].name);
+    const char *out = nh_arena_strdup(model->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
 }
 
-static const char *all_or_these(const nh_model *o, const nh_proof *p)
+static const char *all_or_these(const nh_model *model, const nh_proof *p)
 {
-    return p->all_parameters || !o->system->parameters ? "all parameters" : "these values";
+    return p->all_parameters || !model->system->parameters ? "all parameters" : "these values";
 }
 
 /* A value, or its formula in terms of parameters. */
-static void put_fixed_one(nh_json *object, const nh_model *o, size_t i, nh_ex e)
+static void put_fixed_one(nh_json *object, const nh_model *model, size_t i, nh_ex e)
 {
-    const char *name = o->system->parameter[i].name;
-    if (nh_kind_of(o->dag, e) == NH_NUMBER) {
-        nh_json_put_number(object, name, o->parameter_value[i]);
+    const char *name = model->system->parameter[i].name;
+    if (nh_kind_of(model->dag, e) == NH_NUMBER) {
+        nh_json_put_number(object, name, model->parameter_value[i]);
         return;
     }
-    char *text = nh_print_string(o->dag, e);
+    char *text = nh_print_string(model->dag, e);
     nh_json_put_text(object, name, text);
     nh_free(text);
 }
 
-static void put_fixed(nh_json *object, const nh_model *o, const nh_ex *fixed)
+static void put_fixed(nh_json *object, const nh_model *model, const nh_ex *fixed)
 {
-    for (size_t i = 0; i < o->system->parameters; i++)
-        if (nh_fixed_has(o, fixed, i)) put_fixed_one(object, o, i, fixed[i]);
+    for (size_t i = 0; i < model->system->parameters; i++)
+        if (nh_fixed_has(model, fixed, i)) put_fixed_one(object, model, i, fixed[i]);
 }
 
-void nh_facts_put_holds(nh_json *item, const nh_model *o, const nh_proof *p)
+void nh_facts_put_holds(nh_json *item, const nh_model *model, const nh_proof *p)
 {
-    if (some_fixed(o, p)) put_fixed(nh_json_put_object(item, "holds"), o, p->fixed);
-    else nh_json_put_text(item, "holds", all_or_these(o, p));
+    if (some_fixed(model, p)) put_fixed(nh_json_put_object(item, "holds"), model, p->fixed);
+    else nh_json_put_text(item, "holds", all_or_these(model, p));
 }
 
-void nh_facts_add_holds(nh_json *list, const nh_model *o, const nh_proof *p)
+void nh_facts_add_holds(nh_json *list, const nh_model *model, const nh_proof *p)
 {
-    if (some_fixed(o, p)) put_fixed(nh_json_add_object(list), o, p->fixed);
-    else nh_json_add_text(list, all_or_these(o, p));
+    if (some_fixed(model, p)) put_fixed(nh_json_add_object(list), model, p->fixed);
+    else nh_json_add_text(list, all_or_these(model, p));
 }
 
 /* ---- branches ---- */
 
-void nh_facts_branch(const nh_analysis *r, nh_text *out)
+void nh_facts_branch(const nh_analysis *result, nh_text *out)
 {
-    if (!r->branch) return;
-    nh_text_addf(out, "computed on the branch %s; ", r->branch);
-    if (r->equations_on_both) nh_text_addf(out, "the equations hold on the branch %s too", r->other_branch);
+    if (!result->branch) return;
+    nh_text_addf(out, "computed on the branch %s; ", result->branch);
+    if (result->equations_on_both) nh_text_addf(out, "the equations hold on the branch %s too", result->other_branch);
     else nh_text_add(out, "the equations hold on this branch only");
 }
 
-const char *nh_facts_which_branch(const nh_analysis *r, const nh_current *f)
+const char *nh_facts_which_branch(const nh_analysis *result, const nh_current *f)
 {
-    return !r->model->chart->branch ? ""
-           : f->on_both             ? ", on both branches"
-                                    : nh_arena_printf(r->arena, ", on the branch %s only", r->branch);
+    return !result->model->chart->branch ? ""
+           : f->on_both                  ? ", on both branches"
+                                         : nh_arena_printf(result->arena, ", on the branch %s only", result->branch);
 }
 
 /* ---- the answer ---- */
 
-const char *nh_facts_between_walls(const nh_analysis *r)
+const char *nh_facts_between_walls(const nh_analysis *result)
 {
     const char *where = NULL;
-    size_t n = nh_analysis_to_the_end(r);
-    for (size_t k = 0; k < r->pieces; k++)
-        if (r->piece[k].to_the_end && (!where || strcmp(where, r->piece[k].region) == 0)) where = r->piece[k].region;
-        else if (r->piece[k].to_the_end) where = "each in its region, where motions end";
-    return nh_arena_printf(r->arena, "%zu independent current%s of at most %zu, %s", n, n == 1 ? "" : "s",
-                           r->local_maximum, where);
+    size_t n = nh_analysis_to_the_end(result);
+    for (size_t k = 0; k < result->pieces; k++)
+        if (result->piece[k].to_the_end && (!where || strcmp(where, result->piece[k].region) == 0))
+            where = result->piece[k].region;
+        else if (result->piece[k].to_the_end) where = "each in its region, where motions end";
+    return nh_arena_printf(result->arena, "%zu independent current%s of at most %zu, %s", n, n == 1 ? "" : "s",
+                           result->local_maximum, where);
 }
 
-bool nh_facts_given(const nh_analysis *r) { return r->analysis && r->analysis->families > 0; }
+bool nh_facts_given(const nh_analysis *result) { return result->analysis && result->analysis->families > 0; }
 
-const char *nh_facts_search(const nh_analysis *r)
+const char *nh_facts_search(const nh_analysis *result)
 {
-    size_t left_out = nh_analysis_left_out(r);
+    size_t left_out = nh_analysis_left_out(result);
     bool counted = false; /* the count says what other integrals there can be */
     for (size_t i = 0; i < NH_COMPLETENESS_KINDS; i++)
-        counted |= r->completeness[i].counted && !r->completeness[i].count.obstacle;
-    if (r->search == NH_SEARCH_COMPLETE)
+        counted |= result->completeness[i].counted && !result->completeness[i].count.obstacle;
+    if (result->search == NH_SEARCH_COMPLETE)
         return "The search is complete. There cannot be more currents: together they determine every orbit locally.";
-    if (r->search == NH_SEARCH_CUT) return "A limit ended the search before the last stage: more currents may exist.";
+    if (result->search == NH_SEARCH_CUT)
+        return "A limit ended the search before the last stage: more currents may exist.";
     if (left_out)
-        return nh_arena_printf(r->arena,
+        return nh_arena_printf(result->arena,
                                "The search is exhausted: it tried every stage except %zu that %s too large; the list "
                                "of stages names the option that allows %s.",
                                left_out, left_out == 1 ? "is" : "are", left_out == 1 ? "it" : "them");
-    if (nh_analysis_by_trial(r))
-        return nh_arena_printf(r->arena,
+    if (nh_analysis_by_trial(result))
+        return nh_arena_printf(result->arena,
                                "The values of the unknowns were sought by trial: %ld of them, in %zu of %.0f equal "
                                "parts of their box. This proves nothing about other values.",
-                               r->hits->evaluations, r->hits->visited,
-                               pow((double)r->hits->parts, (double)r->hits->unknowns));
-    if (nh_facts_given(r) && !r->stages)
+                               result->hits->evaluations, result->hits->visited,
+                               pow((double)result->hits->parts, (double)result->hits->unknowns));
+    if (nh_facts_given(result) && !result->stages)
         return "The search is exhausted: it tried the ansatz of the analysis file, and nothing else. With "
                "--no-analysis "
                "the program chooses what it tries.";
@@ -230,15 +232,16 @@ const char *nh_facts_search(const nh_analysis *r)
                    : "The search is exhausted: it tried every stage. Other currents may exist.";
 }
 
-void nh_facts_completeness(const nh_analysis *r, nh_text *out)
+void nh_facts_completeness(const nh_analysis *result, nh_text *out)
 {
-    const nh_completeness *first = &r->completeness[r->completeness[0].counted ? 0 : 1];
-    bool all = r->search == NH_SEARCH_COMPLETE && r->independent >= r->local_maximum;
+    const nh_completeness *first = &result->completeness[result->completeness[0].counted ? 0 : 1];
+    bool all = result->search == NH_SEARCH_COMPLETE && result->independent >= result->local_maximum;
     size_t uncertain = 0;
     if (all && first->counted && first->count.obstacle) return; /* there are no more integrals that could be counted */
-    for (size_t k = 0; k < r->count; k++)
-        uncertain += r->found[k].independence == NH_INDEPENDENT && (!r->found[k].proof.proved || r->found[k].series);
-    nh_completeness_words(r->completeness, uncertain, out);
+    for (size_t k = 0; k < result->count; k++)
+        uncertain += result->found[k].independence == NH_INDEPENDENT &&
+                     (!result->found[k].proof.proved || result->found[k].series);
+    nh_completeness_words(result->completeness, uncertain, out);
 }
 
 bool nh_facts_head(const char *head, double *value)

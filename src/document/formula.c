@@ -24,9 +24,10 @@ nh_ex nh_formula_shortened(const nh_analysis_file *a, nh_dag *d, nh_ex e)
     return e;
 }
 
-nh_ex nh_formula_shown(const nh_analysis *r, nh_ex e)
+nh_ex nh_formula_shown(const nh_analysis *result, nh_ex e)
 {
-    return nh_chart_shown(r->other && r->other->chart->roots ? r->other->chart : r->model->chart, e);
+    return nh_chart_shown(result->other && result->other->chart->roots ? result->other->chart : result->model->chart,
+                          e);
 }
 
 /* ---- names for repeated parts ---- */
@@ -221,26 +222,26 @@ void nh_formula_list_clear(nh_formula_list *l)
 
 /* ---- fields ---- */
 
-static void add_term(const nh_model *o, nh_field_term *list, size_t *n, nh_ex e, const char *along)
+static void add_term(const nh_model *model, nh_field_term *list, size_t *n, nh_ex e, const char *along)
 {
-    if (!nh_is_zero(o->dag, e)) list[(*n)++] = (nh_field_term){e, along};
+    if (!nh_is_zero(model->dag, e)) list[(*n)++] = (nh_field_term){e, along};
 }
 
-size_t nh_formula_field(const nh_analysis *r, const nh_symmetry *z, nh_field_term **out)
+size_t nh_formula_field(const nh_analysis *result, const nh_symmetry *z, nh_field_term **out)
 {
-    const nh_model *o = r->model, *basis = r->other ? r->other : o;
+    const nh_model *model = result->model, *basis = result->other ? result->other : model;
     const nh_field *f = z->along_motion ? &z->relative : &z->field;
     const nh_ex *rate = z->along_motion ? z->relative_rate : z->coordinate_rate;
     size_t n = 0;
-    nh_field_term *list = *out = nh_arena_alloc(o->arena, (2 + o->m + basis->n) * sizeof *list);
-    if (z->along_motion) add_term(o, list, &n, z->Z0, NULL);
-    add_term(o, list, &n, f->time, "t");
-    for (size_t s = 0; s < o->m; s++) add_term(o, list, &n, f->space[s], r->system->coordinate[s].name);
+    nh_field_term *list = *out = nh_arena_alloc(model->arena, (2 + model->m + basis->n) * sizeof *list);
+    if (z->along_motion) add_term(model, list, &n, z->Z0, NULL);
+    add_term(model, list, &n, f->time, "t");
+    for (size_t s = 0; s < model->m; s++) add_term(model, list, &n, f->space[s], result->system->coordinate[s].name);
     for (size_t i = 0; i < basis->n; i++) {
-        nh_ex e = r->other ? 0 : f->velocity[i];
-        for (size_t s = 0; s < o->m && r->other; s++)
-            if (basis->chart->w[i] == r->system->coordinate[s].v) e = rate[s];
-        add_term(o, list, &n, e, nh_name_of(o->dag, basis->chart->w[i]));
+        nh_ex e = result->other ? 0 : f->velocity[i];
+        for (size_t s = 0; s < model->m && result->other; s++)
+            if (basis->chart->w[i] == result->system->coordinate[s].v) e = rate[s];
+        add_term(model, list, &n, e, nh_name_of(model->dag, basis->chart->w[i]));
     }
     return n;
 }

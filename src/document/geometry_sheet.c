@@ -38,9 +38,9 @@ static void add(const builder *b, nh_ex e, const char *format, const char *name)
 
 static void normal_form(const builder *b)
 {
-    const nh_model *o = b->o;
+    const nh_model *model = b->o;
     if (!b->t->submanifold->normal) return;
-    char *branch = o->chart->branch ? nh_chart_branch_name(o->chart, o->chart->branch) : NULL;
+    char *branch = model->chart->branch ? nh_chart_branch_name(model->chart, model->chart->branch) : NULL;
     nh_sheet_begin(
         b->s, "normal_form", "Normal form of the constraints",
         branch ? nh_sheet_label(b->s, "Dependent velocities as functions of the others, on the branch %s.", branch)
@@ -48,10 +48,10 @@ static void normal_form(const builder *b)
     nh_free(branch);
     /* here a root is shown as a root, and not as the velocity that it is equal to */
     b->s->section[b->s->sections - 1].literal = true;
-    for (size_t a = 0; a < o->k; a++) {
-        nh_ex g = o->rho[o->chart->dependent[a]];
-        bool implicit =
-            nh_kind_of(b->d, g) == NH_SYMBOL && o->chart->implicit && g == o->chart->u[a < o->chart->implicit ? a : 0];
+    for (size_t a = 0; a < model->k; a++) {
+        nh_ex g = model->rho[model->chart->dependent[a]];
+        bool implicit = nh_kind_of(b->d, g) == NH_SYMBOL && model->chart->implicit &&
+                        g == model->chart->u[a < model->chart->implicit ? a : 0];
         if (implicit)
             nh_sheet_words(b->s, nh_sheet_label(b->s, "$<%s'>$ has no closed form: the constraints determine it.",
                                                 dependent(b, a)));
@@ -61,32 +61,34 @@ static void normal_form(const builder *b)
 
 static void forms(const builder *b)
 {
-    const nh_model *o = b->o;
-    for (size_t a = 0; a < o->k; a++) {
-        const nh_ex *form = b->t->submanifold->form + a * (1 + o->m);
+    const nh_model *model = b->o;
+    for (size_t a = 0; a < model->k; a++) {
+        const nh_ex *form = b->t->submanifold->form + a * (1 + model->m);
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\form^{%zu}", a + 1));
-        for (size_t s = 0; s < o->m; s++) add(b, form[1 + s], "\\d<%s>", coordinate(b, s));
+        for (size_t s = 0; s < model->m; s++) add(b, form[1 + s], "\\d<%s>", coordinate(b, s));
         nh_sheet_add(b->s, form[0], "\\d t");
     }
 }
 
 static void distribution(const builder *b)
 {
-    const nh_model *o = b->o;
-    bool quasi = o->chart->quasi;
+    const nh_model *model = b->o;
+    bool quasi = model->chart->quasi;
     nh_sheet_begin(b->s, "canonical_distribution", "Canonical distribution",
-                   o->k ? "The fields that the forms $\\form^{a}$ annihilate; these span it."
-                        : "Without constraints: spanned by the derivative along motions, less the accelerations, and "
-                          "the directions of positions and velocities.");
+                   model->k
+                       ? "The fields that the forms $\\form^{a}$ annihilate; these span it."
+                       : "Without constraints: spanned by the derivative along motions, less the accelerations, and "
+                         "the directions of positions and velocities.");
     forms(b);
     nh_sheet_sum(b->s, "", quasi ? "X_{0}" : "\\frac{\\dcp}{\\d t}");
     nh_sheet_add(b->s, nh_int(b->d, 1), "\\frac{\\p}{\\p t}");
-    for (size_t s = 0; s < o->m; s++) add(b, o->rho[s], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
-    for (size_t l = 0; l < o->n; l++) {
+    for (size_t s = 0; s < model->m; s++) add(b, model->rho[s], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
+    for (size_t l = 0; l < model->n; l++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, quasi ? "X_{<%s>}" : "\\frac{\\pc}{\\p<%s>}", index_of(b, l)));
-        for (size_t s = 0; s < o->m; s++) add(b, o->R[s * o->n + l], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
+        for (size_t s = 0; s < model->m; s++)
+            add(b, model->R[s * model->n + l], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
     }
-    for (size_t l = 0; l < o->n && quasi; l++) {
+    for (size_t l = 0; l < model->n && quasi; l++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "Y_{<%s>}", index_of(b, l)));
         add(b, nh_int(b->d, 1), "\\frac{\\p}{\\p<%s>}", velocity(b, l));
     }
@@ -96,20 +98,21 @@ static void distribution(const builder *b)
 
 static void lagrangian(const builder *b)
 {
-    const nh_model *o = b->o;
+    const nh_model *model = b->o;
     const nh_submanifold *s = b->t->submanifold;
-    nh_sheet_begin(b->s, "lagrangian", o->k ? "Lagrangian on the constraint submanifold" : "Lagrangian and momenta",
+    nh_sheet_begin(b->s, "lagrangian", model->k ? "Lagrangian on the constraint submanifold" : "Lagrangian and momenta",
                    s->normal ? "$\\bar{L}$ is $L$ with the constraints inserted, $\\bar{L}_{a}$ its derivative by a "
                                "dependent velocity, before they are inserted; $p$ are the momenta, $E$ is the energy."
-                   : o->k || o->chart->quasi
+                   : model->k || model->chart->quasi
                        ? "$\\bar{L}$ is $L$ in the velocities of the chart; $p$ are the momenta, $E$ is the energy."
                        : "Without constraints $\\bar{L}$ is $L$ itself; $p$ are the momenta, $E$ is the energy.");
-    formula(b, o->Lbar, "\\bar{L}", NULL, NULL);
-    for (size_t a = 0; a < o->k && s->normal; a++)
-        formula(b, o->p[o->chart->dependent[a]], "\\bar{L}_{<%s>}", dependent(b, a), NULL);
-    for (size_t l = 0; l < o->n; l++) formula(b, o->pbar[l], "\\frac{\\p\\bar{L}}{\\p<%s>}", velocity(b, l), NULL);
-    for (size_t i = 0; i < o->m; i++) formula(b, o->p[i], "p_{<%s>}", coordinate(b, i), NULL);
-    formula(b, o->E, "E", NULL, NULL);
+    formula(b, model->Lbar, "\\bar{L}", NULL, NULL);
+    for (size_t a = 0; a < model->k && s->normal; a++)
+        formula(b, model->p[model->chart->dependent[a]], "\\bar{L}_{<%s>}", dependent(b, a), NULL);
+    for (size_t l = 0; l < model->n; l++)
+        formula(b, model->pbar[l], "\\frac{\\p\\bar{L}}{\\p<%s>}", velocity(b, l), NULL);
+    for (size_t i = 0; i < model->m; i++) formula(b, model->p[i], "p_{<%s>}", coordinate(b, i), NULL);
+    formula(b, model->E, "E", NULL, NULL);
 }
 
 /* The rate of a velocity: x'' or omega'. */
@@ -117,25 +120,26 @@ static const char *rate(const builder *b, size_t l) { return nh_sheet_label(b->s
 
 static void euler(const builder *b)
 {
-    const nh_model *o = b->o;
+    const nh_model *model = b->o;
     const nh_submanifold *s = b->t->submanifold;
-    if (o->chart->quasi) return; /* in quasi-velocities there are more terms: Abar contains them */
+    if (model->chart->quasi) return; /* in quasi-velocities there are more terms: Abar contains them */
     nh_sheet_begin(
         b->s, "euler_expressions", "Euler expressions",
-        !o->k ? "The derivative by $q^{l}$, less the rate of the derivative by the velocity $l$."
-              : "Of a function $f$: its constraint derivative by $q^{l}$, less the rate of its derivative by the "
-                "velocity $l$. The reduced equations are $\\eps_{l}(\\bar{L})-\\bar{L}_{a} \\eps_{l}(g^{a})=0$.");
-    for (size_t l = 0; l < o->n; l++) {
+        !model->k ? "The derivative by $q^{l}$, less the rate of the derivative by the velocity $l$."
+                  : "Of a function $f$: its constraint derivative by $q^{l}$, less the rate of its derivative by the "
+                    "velocity $l$. The reduced equations are $\\eps_{l}(\\bar{L})-\\bar{L}_{a} \\eps_{l}(g^{a})=0$.");
+    for (size_t l = 0; l < model->n; l++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\eps_{<%s>}(\\bar{L})", index_of(b, l)));
         nh_sheet_add(b->s, s->force[l], "");
-        for (size_t r = 0; r < o->n; r++) nh_sheet_add(b->s, nh_neg(b->d, s->inertia[l * o->n + r]), rate(b, r));
+        for (size_t r = 0; r < model->n; r++)
+            nh_sheet_add(b->s, nh_neg(b->d, s->inertia[l * model->n + r]), rate(b, r));
     }
-    for (size_t a = 0; a < o->k && s->normal; a++)
-        for (size_t l = 0; l < o->n; l++) {
+    for (size_t a = 0; a < model->k && s->normal; a++)
+        for (size_t l = 0; l < model->n; l++) {
             nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "\\eps_{<%s>}(g^{<%s>})", index_of(b, l), dependent(b, a)));
-            nh_sheet_add(b->s, s->turn[a * o->n + l], "");
-            for (size_t r = 0; r < o->n; r++)
-                nh_sheet_add(b->s, nh_neg(b->d, s->bend[(a * o->n + l) * o->n + r]), rate(b, r));
+            nh_sheet_add(b->s, s->turn[a * model->n + l], "");
+            for (size_t r = 0; r < model->n; r++)
+                nh_sheet_add(b->s, nh_neg(b->d, s->bend[(a * model->n + l) * model->n + r]), rate(b, r));
         }
 }
 
@@ -152,27 +156,28 @@ static void matrix(const builder *b, const nh_ex *e, bool minus, const char *for
 
 static void reduced(const builder *b)
 {
-    const nh_model *o = b->o;
+    const nh_model *model = b->o;
     nh_sheet_begin(
         b->s, "reduced_equations", "Reduced equations (9)",
         "$\\bar{A}_{l}+\\bar{B}_{l,s} <w'>^{s}=0$ for the independent velocities $w$. $\\bar{B}$ and its inverse are "
         "symmetric; $G$, the braces of (18) and (20), is antisymmetric. Entries that are not listed vanish.");
-    for (size_t l = 0; l < o->n; l++) formula(b, o->A[l], "\\bar{A}_{<%s>}", index_of(b, l), NULL);
-    matrix(b, o->M, true, "\\bar{B}_{<%s>,<%s>}", true);
+    for (size_t l = 0; l < model->n; l++) formula(b, model->A[l], "\\bar{A}_{<%s>}", index_of(b, l), NULL);
+    matrix(b, model->M, true, "\\bar{B}_{<%s>,<%s>}", true);
     matrix(b, b->t->submanifold->inverse, false, "(\\bar{B}^{-1})_{<%s>,<%s>}", true);
-    matrix(b, nh_model_G(o), false, "G_{<%s>,<%s>}", false);
-    for (size_t l = 0; l < o->n; l++) {
+    matrix(b, nh_model_G(model), false, "G_{<%s>,<%s>}", false);
+    for (size_t l = 0; l < model->n; l++) {
         nh_sheet_sum(b->s, nh_sheet_label(b->s, "(9, <%s>)", index_of(b, l)), "");
-        nh_sheet_add(b->s, o->A[l], "");
-        for (size_t s = 0; s < o->n; s++) nh_sheet_add(b->s, nh_neg(b->d, o->M[l * o->n + s]), rate(b, s));
+        nh_sheet_add(b->s, model->A[l], "");
+        for (size_t s = 0; s < model->n; s++) nh_sheet_add(b->s, nh_neg(b->d, model->M[l * model->n + s]), rate(b, s));
     }
 }
 
-static void field(const builder *b, const nh_model *o, nh_ex time, const nh_ex *space, const nh_ex *along)
+static void field(const builder *b, const nh_model *model, nh_ex time, const nh_ex *space, const nh_ex *along)
 {
     nh_sheet_add(b->s, time, "\\frac{\\p}{\\p t}");
-    for (size_t s = 0; s < o->m; s++) add(b, space[s], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
-    for (size_t l = 0; l < o->n; l++) add(b, along[l], "\\frac{\\p}{\\p<%s>}", nh_name_of(b->d, o->chart->w[l]));
+    for (size_t s = 0; s < model->m; s++) add(b, space[s], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
+    for (size_t l = 0; l < model->n; l++)
+        add(b, along[l], "\\frac{\\p}{\\p<%s>}", nh_name_of(b->d, model->chart->w[l]));
 }
 
 static void semispray(const builder *b)
@@ -187,24 +192,26 @@ static void semispray(const builder *b)
 /* A_s + B_sr q''^r = mu_a df^a/dq'^s */
 static void chetaev(const builder *b)
 {
-    const nh_model *o = b->o;
+    const nh_model *model = b->o;
     const nh_submanifold *s = b->t->submanifold;
-    nh_sheet_begin(b->s, "chetaev_equations",
-                   o->k ? "Chetaev's equations with multipliers (10)" : "Lagrange's equations (2)",
-                   o->k ? "In all velocities, for the constraints as they were written; then multipliers and force of "
-                          "the constraints, with the constraints inserted."
-                        : "");
-    for (size_t i = 0; i < o->m; i++) {
+    nh_sheet_begin(
+        b->s, "chetaev_equations", model->k ? "Chetaev's equations with multipliers (10)" : "Lagrange's equations (2)",
+        model->k ? "In all velocities, for the constraints as they were written; then multipliers and force of "
+                   "the constraints, with the constraints inserted."
+                 : "");
+    for (size_t i = 0; i < model->m; i++) {
         nh_sheet_sum(b->s, "", "");
         nh_sheet_add(b->s, s->free_A[i], "");
-        for (size_t r = 0; r < o->m; r++) add(b, s->free_B[i * o->m + r], "<%s''>", coordinate(b, r));
-        if (o->k) nh_sheet_equals(b->s);
-        for (size_t a = 0; a < o->k; a++)
-            nh_sheet_add(b->s, s->f_v[a * o->m + i], o->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1));
+        for (size_t r = 0; r < model->m; r++) add(b, s->free_B[i * model->m + r], "<%s''>", coordinate(b, r));
+        if (model->k) nh_sheet_equals(b->s);
+        for (size_t a = 0; a < model->k; a++)
+            nh_sheet_add(b->s, s->f_v[a * model->m + i],
+                         model->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1));
     }
-    for (size_t a = 0; a < o->k; a++)
-        nh_sheet_formula(b->s, o->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1), o->mu[a]);
-    for (size_t i = 0; i < o->m && o->k; i++) formula(b, o->reaction[i], "F_{<%s>}", coordinate(b, i), NULL);
+    for (size_t a = 0; a < model->k; a++)
+        nh_sheet_formula(b->s, model->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1), model->mu[a]);
+    for (size_t i = 0; i < model->m && model->k; i++)
+        formula(b, model->reaction[i], "F_{<%s>}", coordinate(b, i), NULL);
 }
 
 /* (46): mu_a df^a/dq'^s as a sum of inertial forces. */
@@ -213,18 +220,18 @@ static void inertial(const builder *b)
     static const char *const names[] = {"F^{centrifugal}_{<%s>}", "F^{Coriolis}_{<%s>}", "F^{further}_{<%s>}",
                                         "F^{applied}_{<%s>}"};
     const nh_inertial *f = b->t->inertial;
-    const nh_model *o = b->o;
+    const nh_model *model = b->o;
     if (!f) return;
     nh_sheet_begin(b->s, "inertial_forces", "The force of the constraints as inertial forces (46)",
                    "Left side of Chetaev's equation along each length, by its parts; those not listed vanish. Minus "
                    "their sum is the force of the constraints.");
-    for (size_t c = 0; c < o->m; c++) {
-        if (o->system->coordinate[c].type != NH_LENGTH) continue;
+    for (size_t c = 0; c < model->m; c++) {
+        if (model->system->coordinate[c].type != NH_LENGTH) continue;
         for (int turning = 1; turning >= 0; turning--) {
             bool any = false;
-            for (size_t r = 0; r < o->m; r++) {
-                nh_ex e = f->of->free_B[c * o->m + r];
-                if (nh_is_zero(b->d, e) || (o->system->coordinate[r].type == NH_ANGLE) != turning) continue;
+            for (size_t r = 0; r < model->m; r++) {
+                nh_ex e = f->of->free_B[c * model->m + r];
+                if (nh_is_zero(b->d, e) || (model->system->coordinate[r].type == NH_ANGLE) != turning) continue;
                 if (!any)
                     nh_sheet_sum(b->s, "",
                                  nh_sheet_label(b->s, turning ? "F^{Euler}_{<%s>}" : "F^{translational}_{<%s>}",
@@ -268,8 +275,8 @@ static const char *operated(const builder *b, const nh_determining_term *t)
 static void determining(const builder *b)
 {
     const nh_determining *all = b->t->determining;
-    const nh_model *o = b->o;
-    bool quasi = o->chart->quasi;
+    const nh_model *model = b->o;
+    bool quasi = model->chart->quasi;
     nh_sheet_begin(b->s, "determining_equations", "Determining equations of constraint symmetries (14)-(19)",
                    quasi
                        ? "Unknown: the functions of $Z=Z^{0} X_{0}+zeta^{l} X_{l}+W^{l} Y_{l}$. With the current $Phi$ "
@@ -277,14 +284,14 @@ static void determining(const builder *b)
                        : "Unknown: the components $Z^{0}$, $Z^{l}$ and those along velocities, $\\tilde{Z}^{l}$, of a "
                          "field in the canonical distribution. "
                          "With its current $Phi$ (13) and $zeta^{l}$, equations (17)-(19) say the same as (14)-(16).");
-    for (size_t l = 0; l < o->n && !quasi; l++) {
+    for (size_t l = 0; l < model->n && !quasi; l++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "zeta^{<%s>}", index_of(b, l)));
         add(b, nh_int(b->d, 1), "Z^{<%s>}", index_of(b, l));
-        nh_sheet_add(b->s, nh_neg(b->d, o->chart->w[l]), "Z^{0}");
+        nh_sheet_add(b->s, nh_neg(b->d, model->chart->w[l]), "Z^{0}");
     }
     nh_sheet_sum(b->s, "(13)", "Phi");
-    nh_sheet_add(b->s, o->Lbar, "Z^{0}");
-    for (size_t l = 0; l < o->n; l++) add(b, o->pbar[l], "zeta^{<%s>}", index_of(b, l));
+    nh_sheet_add(b->s, model->Lbar, "Z^{0}");
+    for (size_t l = 0; l < model->n; l++) add(b, model->pbar[l], "zeta^{<%s>}", index_of(b, l));
     for (size_t i = 0; i < all->count; i++) {
         const nh_determining_equation *e = &all->equation[i];
         bool one = e->number == 14 || e->number == 17;

@@ -239,15 +239,15 @@ void nh_html_table_end(nh_html_writer *w) { nh_html_add(w, "</tbody></table></di
 static void put_values(nh_html_writer *w)
 {
     enum { most = 8 };
-    const nh_system *s = w->system;
-    if (!s->parameters || s->parameters > most) return;
+    const nh_system *system = w->system;
+    if (!system->parameters || system->parameters > most) return;
     nh_html_add(w, " <span class=\"params\">");
-    for (size_t i = 0; i < s->parameters; i++) {
+    for (size_t i = 0; i < system->parameters; i++) {
         nh_html_add(w, i ? ", <span class=\"word\">" : "<span class=\"word\">");
-        nh_html_source(w, s->parameter[i].name);
+        nh_html_source(w, system->parameter[i].name);
         nh_html_add(w, " = ");
-        nh_html_number(w, s->parameter[i].value, 6);
-        if (*s->parameter[i].unit) nh_html_add(w, "\u00a0"), nh_html_prose(w, s->parameter[i].unit);
+        nh_html_number(w, system->parameter[i].value, 6);
+        if (*system->parameter[i].unit) nh_html_add(w, "\u00a0"), nh_html_prose(w, system->parameter[i].unit);
         nh_html_add(w, "</span>");
     }
     nh_html_add(w, "</span>");
@@ -278,12 +278,12 @@ void nh_html_begin(nh_html_writer *w, const char *what)
 
 void nh_html_head_end(nh_html_writer *w)
 {
-    const nh_system *s = w->system;
+    const nh_system *system = w->system;
     if (w->headed) return;
     w->headed = true;
-    if (s->source && s->source[0]) {
+    if (system->source && system->source[0]) {
         nh_html_add(w, "<p class=\"source\">System: ");
-        nh_html_text(w, s->source);
+        nh_html_text(w, system->source);
         nh_html_add(w, "</p>\n");
     }
     nh_html_add(w, "</div><div class=\"tools\"><button class=\"tool\" id=\"theme\" type=\"button\" "

@@ -117,21 +117,21 @@ static void parameter_slider(nh_html_writer *w, const nh_live *l, size_t i)
 
 static void parameter_sliders(nh_html_writer *w, const nh_live *l)
 {
-    const nh_system *s = l->model->system;
+    const nh_system *system = l->model->system;
     size_t n = 0;
-    for (size_t i = 0; i < s->parameters; i++) n += occurs(l, s->parameter[i].symbol);
+    for (size_t i = 0; i < system->parameters; i++) n += occurs(l, system->parameter[i].symbol);
     if (!n) return;
     nh_text_addf(w->out, "<div><h4>Parameters</h4><div%s>\n", n > many ? " class=\"many\"" : "");
-    for (size_t i = 0; i < s->parameters; i++)
-        if (occurs(l, s->parameter[i].symbol)) parameter_slider(w, l, i);
+    for (size_t i = 0; i < system->parameters; i++)
+        if (occurs(l, system->parameter[i].symbol)) parameter_slider(w, l, i);
     nh_html_add(w, "</div></div>\n");
 }
 
 static void state_slider(nh_html_writer *w, const nh_live *l, size_t i)
 {
     static const double turn = 3.15, beside = 0.5;
-    const nh_system *s = l->model->system;
-    const nh_coordinate *c = i < s->coordinates ? &s->coordinate[i] : NULL;
+    const nh_system *system = l->model->system;
+    const nh_coordinate *c = i < system->coordinates ? &system->coordinate[i] : NULL;
     double low = -2, high = 2, value = l->initial[i];
     nh_chart_range(l->model->chart, l->symbol[i], &low, &high);
     if (c && c->type == NH_ANGLE) low = fmin(low, -turn), high = fmax(high, turn);
@@ -195,7 +195,7 @@ static void controls(nh_html_writer *w, const nh_stage *s, bool live)
 /* Words with the names of coordinates as formulas. */
 static void words(nh_html_writer *w, const char *text)
 {
-    const nh_system *s = w->system;
+    const nh_system *system = w->system;
     nh_text token;
     nh_text_init(&token);
     for (const char *c = text; *c;) {
@@ -204,7 +204,8 @@ static void words(nh_html_writer *w, const char *text)
         nh_text_add_n(&token, c, n ? n : 1);
         const char *word = nh_text_string(&token);
         bool name = false;
-        for (size_t i = 0; i < s->coordinates && strcmp(word, "a"); i++) name |= !strcmp(word, s->coordinate[i].name);
+        for (size_t i = 0; i < system->coordinates && strcmp(word, "a"); i++)
+            name |= !strcmp(word, system->coordinate[i].name);
         if (name) nh_html_source(w, word);
         else nh_html_prose(w, word);
         c += n ? n : 1;

@@ -68,11 +68,11 @@ static void lines(nh_html_writer *w, const nh_time_series *c, nh_track_kind kind
 }
 
 /* "length / m" when all coordinates of that type have one unit. */
-static const char *axis_of(const nh_system *s, nh_coordinate_type type, const char *what, char out[80])
+static const char *axis_of(const nh_system *system, nh_coordinate_type type, const char *what, char out[80])
 {
     const char *unit = NULL;
-    for (size_t i = 0; i < s->coordinates; i++) {
-        const nh_coordinate *c = &s->coordinate[i];
+    for (size_t i = 0; i < system->coordinates; i++) {
+        const nh_coordinate *c = &system->coordinate[i];
         const char *own = c->unit && c->unit[0] ? c->unit : type == NH_ANGLE ? "rad" : "";
         if (c->type == type) unit = !unit || !strcmp(unit, own) ? own : "";
     }
@@ -89,14 +89,14 @@ static void positions(nh_html_writer *w, const nh_time_series *c)
     } kind[] = {{NH_ANGLE, "angle", "Angles over time."},
                 {NH_LENGTH, "length", "Lengths over time."},
                 {NH_PLAIN, "coordinate", "Other coordinates over time."}};
-    const nh_system *s = w->system;
+    const nh_system *system = w->system;
     for (size_t k = 0; k < 3; k++) {
         nh_curve curve[most_curves];
         char label[80];
-        const char *axis = axis_of(s, kind[k].type, kind[k].what, label);
+        const char *axis = axis_of(system, kind[k].type, kind[k].what, label);
         size_t n = 0;
-        for (size_t i = 0; i < s->coordinates; i++) {
-            if (s->coordinate[i].type != kind[k].type) continue;
+        for (size_t i = 0; i < system->coordinates; i++) {
+            if (system->coordinate[i].type != kind[k].type) continue;
             curve[n++] = curve_of(w, c, &c->line[i]);
             if (n < most_curves) continue;
             flush(w, c, "Coordinates", axis, kind[k].caption, n, curve);
@@ -187,14 +187,14 @@ static void path_plot(nh_html_writer *w, const nh_time_series *c)
                     .equal = true,
                     .curves = n,
                     .curve = curve};
-    const nh_system *s = w->system;
+    const nh_system *system = w->system;
     bool marks = false;
     for (size_t k = 0; k < n; k++) marks |= curve[k].heading != NULL;
-    for (size_t i = s->coordinates; i-- > 0;)
+    for (size_t i = system->coordinates; i-- > 0;)
         for (size_t k = c->shapes; k-- > 0;) {
             if (c->shape[k].kind == NH_SHAPE_SEGMENT || nh_shape_in_space(c->shape[k].kind)) continue;
-            if (s->coordinate[i].q == c->shape[k].value[0]) plot.x_label = s->coordinate[i].name;
-            if (s->coordinate[i].q == c->shape[k].value[1]) plot.y_label = s->coordinate[i].name;
+            if (system->coordinate[i].q == c->shape[k].value[0]) plot.x_label = system->coordinate[i].name;
+            if (system->coordinate[i].q == c->shape[k].value[1]) plot.y_label = system->coordinate[i].name;
         }
     nh_html_figure(w, &plot,
                    marks ? "Path of the motion; the marks show the heading of a body at equal time steps."

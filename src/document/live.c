@@ -99,12 +99,12 @@ static void put_list(const char *key, size_t n, const double *value, nh_text *ou
     nh_text_add(out, "],\n");
 }
 
-static void put_parameters(const nh_system *s, nh_text *out)
+static void put_parameters(const nh_system *system, nh_text *out)
 {
     nh_text_add(out, "  parameters: {");
-    for (size_t i = 0; i < s->parameters; i++) {
-        nh_text_addf(out, "%s%s: ", i ? ", " : "", s->parameter[i].name);
-        put_number(s->parameter[i].value, out);
+    for (size_t i = 0; i < system->parameters; i++) {
+        nh_text_addf(out, "%s%s: ", i ? ", " : "", system->parameter[i].name);
+        put_number(system->parameter[i].value, out);
     }
     nh_text_add(out, "},\n");
 }
@@ -112,19 +112,20 @@ static void put_parameters(const nh_system *s, nh_text *out)
 /* The values that parameters must have: {k: p => 2}. */
 static void put_needs(const nh_live *l, const nh_live_quantity *q, nh_text *out)
 {
-    const nh_system *s = l->model->system;
+    const nh_system *system = l->model->system;
     nh_text_addf(out, ", proved: %s", q->proved ? "true" : "false");
     if (!q->proved || q->all_parameters) return;
     nh_text_add(out, ", needs: {");
-    for (size_t i = 0, n = 0; i < s->parameters; i++) {
+    for (size_t i = 0, n = 0; i < system->parameters; i++) {
         if (q->fixed && !nh_fixed_has(l->model, q->fixed, i)) continue;
-        nh_text_addf(out, "%s%s: p => ", n++ ? ", " : "", s->parameter[i].name);
+        nh_text_addf(out, "%s%s: p => ", n++ ? ", " : "", system->parameter[i].name);
         nh_source *code = nh_source_create(&nh_source_js, l->model->dag, out);
-        for (size_t k = 0; k < s->parameters; k++)
-            nh_source_set(code, s->parameter[k].symbol, nh_arena_printf(l->code->arena, "p.%s", s->parameter[k].name));
+        for (size_t k = 0; k < system->parameters; k++)
+            nh_source_set(code, system->parameter[k].symbol,
+                          nh_arena_printf(l->code->arena, "p.%s", system->parameter[k].name));
         nh_source_whole(code);
         if (q->fixed) nh_source_put(code, q->fixed[i]);
-        else put_number(s->parameter[i].value, out);
+        else put_number(system->parameter[i].value, out);
         nh_source_free(code);
     }
     nh_text_add(out, "}");
@@ -182,13 +183,13 @@ static void put_tracks(const nh_live *l, const nh_observables *t, nh_text *out)
 
 static void put_model(const nh_live *l, const nh_observables *t, nh_text *out)
 {
-    const nh_system *s = l->model->system;
+    const nh_system *system = l->model->system;
     nh_text_add(out, "var nhsymModel = {\n  name: ");
-    nh_live_js_text(s->name, out);
+    nh_live_js_text(system->name, out);
     nh_text_add(out, ",\n  title: ");
-    nh_live_js_text(s->title, out);
+    nh_live_js_text(system->title, out);
     nh_text_add(out, ",\n");
-    put_parameters(s, out);
+    put_parameters(system, out);
     nh_text_add(out, "  state: [");
     for (size_t i = 0; i < l->states; i++) {
         if (i) nh_text_add(out, ", ");
@@ -201,8 +202,8 @@ static void put_model(const nh_live *l, const nh_observables *t, nh_text *out)
     put_quantities(l, out);
     put_tracks(l, t, out);
     put_shapes(l, t, out);
-    const char **member = nh_arena_alloc(l->code->arena, (s->parameters + 1) * sizeof *member);
-    for (size_t i = 0; i < s->parameters; i++) member[i] = s->parameter[i].name;
+    const char **member = nh_arena_alloc(l->code->arena, (system->parameters + 1) * sizeof *member);
+    for (size_t i = 0; i < system->parameters; i++) member[i] = system->parameter[i].name;
     for (size_t i = 0; i < l->code->functions && !l->why; i++)
         nh_export_put_body(&form, l->code, &l->code->function[i], "", member, out);
     nh_text_add(out, "};\n");
@@ -225,14 +226,14 @@ void nh_live_js(nh_live *l, const nh_observables *t, size_t most, nh_text *out)
 
 /* ---- of an analysis ---- */
 
-nh_live *nh_live_of_analysis(const nh_analysis *r, const nh_observables *tracks)
+nh_live *nh_live_of_analysis(const nh_analysis *result, const nh_observables *tracks)
 {
-    const nh_validation *v = r->validation;
+    const nh_validation *v = result->validation;
     if (!v || v->count < 2) return NULL;
-    nh_dag *d = r->model->dag;
-    nh_live_quantity *quantity = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *quantity);
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
+    nh_dag *d = result->model->dag;
+    nh_live_quantity *quantity = nh_arena_alloc(result->arena, (result->count + 1) * sizeof *quantity);
+    for (size_t k = 0; k < result->count; k++) {
+        const nh_current *f = &result->found[k];
         bool minus = !strncmp(f->meaning, "minus", 5); /* as readers know it: E, not -E */
         nh_ex in_velocities = f->has_in_velocities ? f->in_velocities : 0;
         quantity[k] = (nh_live_quantity){.name = f->name,
@@ -242,19 +243,19 @@ nh_live *nh_live_of_analysis(const nh_analysis *r, const nh_observables *tracks)
                                          .all_parameters = f->proof.all_parameters,
                                          .fixed = f->proof.fixed};
     }
-    nh_live_request request = {.model = r->model,
+    nh_live_request request = {.model = result->model,
                                .tracks = tracks,
                                .first = v->watch,
                                .begin = v->time[0],
                                .end = v->time[v->count - 1],
-                               .quantities = r->count,
+                               .quantities = result->count,
                                .quantity = quantity};
     return nh_live_create(&request, nh_live_js_lacks);
 }
 
-bool nh_live_possible(const nh_analysis *r, nh_error *error)
+bool nh_live_possible(const nh_analysis *result, nh_error *error)
 {
-    nh_live *live = nh_live_of_analysis(r, &r->tracks);
+    nh_live *live = nh_live_of_analysis(result, &result->tracks);
     bool good = live && !live->why;
     if (!live) nh_fail(error, NH_NUMERIC, "--to js", "no motion of this system was computed");
     else if (!good) nh_fail(error, NH_NUMERIC, "--to js", "the motion cannot be written in JavaScript: %s", live->why);
@@ -262,25 +263,26 @@ bool nh_live_possible(const nh_analysis *r, nh_error *error)
     return good || nh_error_hint(error, "--to c and --to python write the equations of all systems");
 }
 
-void nh_live_js_file(const nh_analysis *r, nh_text *out)
+void nh_live_js_file(const nh_analysis *result, nh_text *out)
 {
-    nh_live *live = nh_live_of_analysis(r, &r->tracks);
+    nh_live *live = nh_live_of_analysis(result, &result->tracks);
     nh_text_addf(out, "// %s.  Exported by nhsym " NH_VERSION ": a model and an integrator (docs/export.md).\n",
-                 r->system->title);
-    nh_live_js(live, &r->tracks, SIZE_MAX, out);
+                 result->system->title);
+    nh_live_js(live, &result->tracks, SIZE_MAX, out);
     nh_text_add(out, nh_page_solver);
     nh_text_add(out, "if (typeof module === \"object\") module.exports = {model: nhsymModel, solve: nhsymSolve};\n");
     nh_live_free(live);
 }
 
-const char *nh_live_command(nh_arena *arena, const nh_run *run, const nh_system *s)
+const char *nh_live_command(nh_arena *arena, const nh_run *run, const nh_system *system)
 {
-    const char *words = run->system_words ? run->system_words : run->system_path ? run->system_path : s->name;
+    const char *words = run->system_words ? run->system_words : run->system_path ? run->system_path : system->name;
     words = nh_arena_printf(arena, "nhsym simulate %s", words);
-    for (size_t i = 0; i < s->parameters; i++) {
+    for (size_t i = 0; i < system->parameters; i++) {
         char number[40];
-        nh_text_number(s->parameter[i].value, number, sizeof number);
-        if (s->parameter[i].set) words = nh_arena_printf(arena, "%s --set %s=%s", words, s->parameter[i].name, number);
+        nh_text_number(system->parameter[i].value, number, sizeof number);
+        if (system->parameter[i].set)
+            words = nh_arena_printf(arena, "%s --set %s=%s", words, system->parameter[i].name, number);
     }
     return words;
 }

@@ -9,18 +9,19 @@
 #include "search/motion_series.h"
 
 /* The parameter, the meaning of the letters, and the values for which it holds. */
-static const char *words_of(nh_sheet *s, const nh_analysis *r)
+static const char *words_of(nh_sheet *s, const nh_analysis *result)
 {
-    const nh_explicit_motion *m = r->motion;
-    const char *fixed = m->fixed ? nh_fixed_text(r->model, m->fixed) : "";
+    const nh_explicit_motion *m = result->motion;
+    const char *fixed = m->fixed ? nh_fixed_text(result->model, m->fixed) : "";
     const char *rest = m->known < m->states ? " No closed form was found for the other states." : "";
-    const char *where = m->region ? nh_arena_printf(r->arena, "while a motion stays in one region (%s)", m->region)
+    const char *where = m->region ? nh_arena_printf(result->arena, "while a motion stays in one region (%s)", m->region)
                                   : "along every motion";
     return nh_sheet_label(s,
                           "These formulas hold %s%s%s%s, with $<%s>$ as the parameter; the numbers C are constant "
                           "%s.%s%s",
                           where, *fixed ? ", for " : "", fixed,
-                          r->branch ? nh_arena_printf(r->arena, ", on the branch %s only", r->branch) : "",
+                          result->branch ? nh_arena_printf(result->arena, ", on the branch %s only", result->branch)
+                                         : "",
                           nh_name_of(s->dag, m->state[m->parameter]), m->region ? "there" : "along motions",
                           m->proved ? " Proved: they satisfy the equations of motion." : "", rest);
 }
@@ -77,9 +78,9 @@ static void other_series(nh_sheet *s, const nh_motion_series *v, const char *of)
     at_end(s, v, v->links - 1, end);
 }
 
-static void series(nh_sheet *s, const nh_analysis *r)
+static void series(nh_sheet *s, const nh_analysis *result)
 {
-    const nh_explicit_motion *m = r->motion;
+    const nh_explicit_motion *m = result->motion;
     const nh_motion_series *v = m->series;
     if (!v) return;
     const char *of = nh_name_of(s->dag, m->state[m->parameter]);
@@ -93,16 +94,16 @@ static void series(nh_sheet *s, const nh_analysis *r)
     if (v->links > 1) other_series(s, v, of);
 }
 
-nh_sheet *nh_motion_sheet(const nh_analysis *r)
+nh_sheet *nh_motion_sheet(const nh_analysis *result)
 {
-    const nh_explicit_motion *m = r->motion;
+    const nh_explicit_motion *m = result->motion;
     if (!m) return NULL;
-    nh_sheet *s = nh_sheet_create(r->arena, r->model->dag);
-    s->analysis = r->analysis;
-    s->chart = r->model->chart->roots ? r->model->chart : NULL;
-    s->shown = r->options.shown;
-    s->written = r->options.written;
-    nh_sheet_begin(s, "states", "Explicit motion", words_of(s, r));
+    nh_sheet *s = nh_sheet_create(result->arena, result->model->dag);
+    s->analysis = result->analysis;
+    s->chart = result->model->chart->roots ? result->model->chart : NULL;
+    s->shown = result->options.shown;
+    s->written = result->options.written;
+    nh_sheet_begin(s, "states", "Explicit motion", words_of(s, result));
     for (size_t i = 0; i < m->states; i++)
         if (m->is_known[i] && i != m->parameter) nh_sheet_formula(s, name(s, m->state[i]), m->value[i]);
     if (m->roots) nh_sheet_begin(s, "roots", "Roots in these formulas", "The state determines the sign of each.");
@@ -118,7 +119,7 @@ nh_sheet *nh_motion_sheet(const nh_analysis *r)
                          nh_sheet_label(s, "d<%s>/d<%s>", nh_name_of(s->dag, m->integral[i].symbol),
                                         nh_name_of(s->dag, m->state[m->parameter])),
                          m->integral[i].integrand);
-    series(s, r);
+    series(s, result);
     nh_sheet_begin(
         s, "constants",
         m->integrals ? "The constants, from the state at the start" : "The constants, from the state at any time", "");
@@ -127,9 +128,9 @@ nh_sheet *nh_motion_sheet(const nh_analysis *r)
 }
 
 /* Every interval of the chain, with the coefficients of (s - centre)^k. */
-static void intervals_json(const nh_analysis *r, nh_json *to)
+static void intervals_json(const nh_analysis *result, nh_json *to)
 {
-    const nh_motion_series *v = r->motion->series;
+    const nh_motion_series *v = result->motion->series;
     if (!v) {
         nh_json_put_null(to, "intervals");
         return;
@@ -143,26 +144,26 @@ static void intervals_json(const nh_analysis *r, nh_json *to)
         for (size_t j = 0; j < v->integrals; j++) {
             const nh_motion_series_of_one *one = &v->link[i].integral[j];
             nh_json *of = nh_json_add_object(integrals);
-            nh_json_put_text(of, "name", nh_name_of(r->model->dag, one->symbol));
+            nh_json_put_text(of, "name", nh_name_of(result->model->dag, one->symbol));
             nh_json_put_numbers(of, "coefficients", NH_MOTION_SERIES_TERMS, one->coefficient, 1);
             nh_json_put_number(of, "bound", one->bound);
         }
     }
 }
 
-void nh_motion_sheet_json(const nh_analysis *r, nh_json *to)
+void nh_motion_sheet_json(const nh_analysis *result, nh_json *to)
 {
-    const nh_explicit_motion *m = r->motion;
+    const nh_explicit_motion *m = result->motion;
     if (!m) {
         nh_json_put_null(to, "explicit_motion");
         return;
     }
     nh_json *item = nh_json_put_object(to, "explicit_motion");
-    nh_json_put_text(item, "parameter", nh_name_of(r->model->dag, m->state[m->parameter]));
+    nh_json_put_text(item, "parameter", nh_name_of(result->model->dag, m->state[m->parameter]));
     nh_json_put_bool(item, "complete", m->known == m->states);
     nh_json_put_bool(item, "proved", m->proved);
-    nh_json_put_text(item, "fixed", m->fixed ? nh_fixed_text(r->model, m->fixed) : NULL);
+    nh_json_put_text(item, "fixed", m->fixed ? nh_fixed_text(result->model, m->fixed) : NULL);
     nh_json_put_text(item, "region", m->region);
-    intervals_json(r, item);
-    nh_sheet_json(nh_motion_sheet(r), item);
+    intervals_json(result, item);
+    nh_sheet_json(nh_motion_sheet(result), item);
 }

@@ -2,12 +2,12 @@
 
 #include "base/versions.h"
 
-void nh_run_json(const nh_run *r, const nh_system *s, nh_json *to)
+void nh_run_json(const nh_run *r, const nh_system *system, nh_json *to)
 {
-    if (!nh_json_get(to, "title")) nh_json_put_text(to, "title", s->title);
+    if (!nh_json_get(to, "title")) nh_json_put_text(to, "title", system->title);
     nh_json *parameters = nh_json_get(to, "parameters") ? NULL : nh_json_put_object(to, "parameters");
-    for (size_t i = 0; parameters && i < s->parameters; i++)
-        nh_json_put_number(parameters, s->parameter[i].name, s->parameter[i].value);
+    for (size_t i = 0; parameters && i < system->parameters; i++)
+        nh_json_put_number(parameters, system->parameter[i].name, system->parameter[i].value);
     nh_json *run = nh_json_put_object(to, "run");
     nh_json_put_text(run, "command", r->command);
     nh_json_put_text(run, "system_file", r->system_path);

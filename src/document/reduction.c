@@ -254,10 +254,10 @@ const char *nh_reduction_globally(const nh_reduction *r, const nh_group *g)
     return nh_arena_printf(r->kinetic->arena, "; globally: %s%s, of dimension %zu", least, g->global_name, g->global);
 }
 
-static bool names(const nh_system *s, const char *name)
+static bool names(const nh_system *system, const char *name)
 {
-    bool taken = nh_system_coordinate(s, name) >= 0;
-    for (size_t i = 0; i < s->parameters; i++) taken |= !strcmp(s->parameter[i].name, name);
+    bool taken = nh_system_coordinate(system, name) >= 0;
+    for (size_t i = 0; i < system->parameters; i++) taken |= !strcmp(system->parameter[i].name, name);
     return taken;
 }
 

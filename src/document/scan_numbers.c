@@ -50,9 +50,9 @@ static size_t chosen_degree(const nh_request *q, const nh_model *model)
 
 static char *count_document(const nh_request *q, bool generic, nh_error *error)
 {
-    nh_system *s = nh_system_read(q->system_path, q->settings, q->setting, error);
-    nh_chart *chart = s ? nh_chart_create(s, NH_CHART_AUTO, (uint64_t)q->options.seed, error) : NULL;
-    nh_model *model = chart ? nh_model_create(s, chart, error) : NULL;
+    nh_system *system = nh_system_read(q->system_path, q->settings, q->setting, error);
+    nh_chart *chart = system ? nh_chart_create(system, NH_CHART_AUTO, (uint64_t)q->options.seed, error) : NULL;
+    nh_model *model = chart ? nh_model_create(system, chart, error) : NULL;
     char *text = NULL;
     if (model) {
         size_t degree = chosen_degree(q, model);
@@ -67,16 +67,16 @@ static char *count_document(const nh_request *q, bool generic, nh_error *error)
             nh_fail(error, NH_LIMIT, "", "counting at degree %zu needs more than the option `count_work`", degree);
     }
     nh_model_free(model);
-    nh_system_free(s);
+    nh_system_free(system);
     return text;
 }
 
 static char *analysis_document(const nh_request *q, bool generic, nh_error *error)
 {
     (void)generic;
-    nh_analysis *r = nh_analysis_create(q, error);
-    char *text = r ? nh_analysis_json(r) : NULL;
-    nh_analysis_free(r);
+    nh_analysis *result = nh_analysis_create(q, error);
+    char *text = result ? nh_analysis_json(result) : NULL;
+    nh_analysis_free(result);
     return text;
 }
 

@@ -87,47 +87,47 @@ static bool is_open(const char *const open[3], const char *name)
 }
 
 /* The length of the beginning "mass_" that at least three parameters share; 0: there is none. */
-static size_t shared_beginning(const nh_system *s, const char *name)
+static size_t shared_beginning(const nh_system *system, const char *name)
 {
     enum { least = 3, letters = 3 };
     const char *end = strchr(name, '_');
     size_t length = end ? (size_t)(end - name) + 1 : 0, n = 0;
-    for (size_t i = 0; length && i < s->parameters; i++) n += !strncmp(s->parameter[i].name, name, length);
+    for (size_t i = 0; length && i < system->parameters; i++) n += !strncmp(system->parameter[i].name, name, length);
     return n >= least && length > letters && isalpha((unsigned char)name[length]) ? length : 0;
 }
 
 enum { glue = 1 }; /* for a blank at which no line is broken */
 
 /* "m = 1, l = 1" in one line. */
-static void put_parameters(const nh_system *s, const char *const open[3], nh_text *out)
+static void put_parameters(const nh_system *system, const char *const open[3], nh_text *out)
 {
     size_t grouped = 0;
-    for (size_t i = 0; i < s->parameters; i++) {
-        const char *name = s->parameter[i].name;
-        size_t length = shared_beginning(s, name), before = 0, group = 0;
-        for (size_t j = 0; length && j < i; j++) before += !strncmp(s->parameter[j].name, name, length);
-        for (size_t j = i; j < s->parameters && !before; j++) {
-            const char *other = s->parameter[j].name;
+    for (size_t i = 0; i < system->parameters; i++) {
+        const char *name = system->parameter[i].name;
+        size_t length = shared_beginning(system, name), before = 0, group = 0;
+        for (size_t j = 0; length && j < i; j++) before += !strncmp(system->parameter[j].name, name, length);
+        for (size_t j = i; j < system->parameters && !before; j++) {
+            const char *other = system->parameter[j].name;
             if ((length ? strncmp(other, name, length) != 0 : j > i) || is_open(open, other)) continue;
             nh_text_add(out, !out->length ? "" : grouped && !group ? "; " : ", ");
-            if (!length) nh_text_addf(out, "%s%c=%c%.6g", other, glue, glue, s->parameter[j].value);
+            if (!length) nh_text_addf(out, "%s%c=%c%.6g", other, glue, glue, system->parameter[j].value);
             else
                 nh_text_addf(out, "%.*s%s%s%c%.6g", group ? 0 : (int)length - 1, name, group ? "" : ": ",
-                             other + length, glue, s->parameter[j].value);
+                             other + length, glue, system->parameter[j].value);
             group++, grouped = length;
         }
     }
 }
 
-void nh_screen_begin(nh_text *out, bool colour, const nh_system *s, const char *const open[3], nh_text *answer)
+void nh_screen_begin(nh_text *out, bool colour, const nh_system *system, const char *const open[3], nh_text *answer)
 {
     enum { width = 80, blanks = 3 };
     size_t start = out->length;
     nh_text values;
     nh_text_init(&values);
-    put_parameters(s, open, &values);
-    bool fit = nh_text_width(s->title) + blanks + nh_text_width(nh_text_string(&values)) <= width;
-    nh_text_addf(out, colour ? "\033[1m%s\033[0m" : "%s", s->title);
+    put_parameters(system, open, &values);
+    bool fit = nh_text_width(system->title) + blanks + nh_text_width(nh_text_string(&values)) <= width;
+    nh_text_addf(out, colour ? "\033[1m%s\033[0m" : "%s", system->title);
     if (fit && values.length) nh_text_addf(out, "   %s", nh_text_string(&values));
     nh_text_add(out, "\n");
     nh_screen_say(out, 0, answer);

@@ -121,9 +121,9 @@ typedef struct {
 /* Is it the energy under another name? */
 static bool is_energy(const list *l, nh_ex e, const nh_options *options)
 {
-    const nh_model *o = l->s->model;
-    nh_ex term[] = {e, nh_neg(o->dag, o->E)};
-    return e == o->E || nh_prove_zero(o, 2, term, true, options).proved;
+    const nh_model *model = l->s->model;
+    nh_ex term[] = {e, nh_neg(model->dag, model->E)};
+    return e == model->E || nh_prove_zero(model, 2, term, true, options).proved;
 }
 
 /* What is not proved to be conserved is only plotted. */

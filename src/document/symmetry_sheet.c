@@ -48,12 +48,12 @@ static const char *called(nh_sheet *s, const nh_space_member *m, size_t i)
     return label ? label : nh_sheet_label(s, "Psi_{%zu}", i);
 }
 
-static void show_field(nh_sheet *s, const nh_model *o, const char *name, const nh_field *z)
+static void show_field(nh_sheet *s, const nh_model *model, const char *name, const nh_field *z)
 {
     nh_sheet_sum(s, "", nh_sheet_label(s, "Z(%s)", name));
     nh_sheet_add(s, z->time, "\\frac{\\p}{\\p t}");
-    for (size_t i = 0; i < o->m; i++)
-        nh_sheet_add(s, z->space[i], nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", o->system->coordinate[i].name));
+    for (size_t i = 0; i < model->m; i++)
+        nh_sheet_add(s, z->space[i], nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", model->system->coordinate[i].name));
 }
 
 /* The members of one kind: their names in a row; combinations and fields below. */
@@ -148,29 +148,31 @@ static void conclude(nh_sheet *s, const nh_space_bound *b, const char *letter, c
 }
 
 /* U_a = c^l d/dw^l. */
-static void show_across(nh_sheet *s, const nh_model *o, size_t a, const nh_ex *coefficient)
+static void show_across(nh_sheet *s, const nh_model *model, size_t a, const nh_ex *coefficient)
 {
     nh_sheet_sum(s, "", nh_sheet_label(s, "U_{%zu}", a + 1));
-    for (size_t l = 0; l < o->n; l++)
+    for (size_t l = 0; l < model->n; l++)
         nh_sheet_add(s, nh_simplify_short(s->dag, coefficient[l], 0),
-                     nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", nh_name_of(s->dag, o->chart->w[l])));
+                     nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", nh_name_of(s->dag, model->chart->w[l])));
 }
 
 static void bounds(nh_sheet *s, const nh_theory *t)
 {
-    const nh_model *o = t->model;
+    const nh_model *model = t->model;
     const nh_bracket_fields *f = t->fields;
     nh_sheet_begin(s, "bracket_bounds", "Which currents can have better symmetries",
-                   o->k ? "Vertical fields with $i_{[Gamma,Z]}\\form^{a}=U_{a}(Phi)$ for every current, and fields $V$ "
-                          "with which $[Gamma,Z-Z^{0} Gamma]$ has the components $V(Phi)$: a function of one current "
-                          "has the case of the current."
-                        : "Fields $V$ with which $[Gamma,Z-Z^{0} Gamma]$ has the components $V(Phi)$ for every "
-                          "current: a function of one current has the case of the current.");
-    for (size_t a = 0; a < o->k && !t->space->all_inside; a++) show_across(s, o, a, f->U + a * f->width + 1 + o->m);
-    if (o->k && t->space->all_inside)
+                   model->k
+                       ? "Vertical fields with $i_{[Gamma,Z]}\\form^{a}=U_{a}(Phi)$ for every current, and fields $V$ "
+                         "with which $[Gamma,Z-Z^{0} Gamma]$ has the components $V(Phi)$: a function of one current "
+                         "has the case of the current."
+                       : "Fields $V$ with which $[Gamma,Z-Z^{0} Gamma]$ has the components $V(Phi)$ for every "
+                         "current: a function of one current has the case of the current.");
+    for (size_t a = 0; a < model->k && !t->space->all_inside; a++)
+        show_across(s, model, a, f->U + a * f->width + 1 + model->m);
+    if (model->k && t->space->all_inside)
         nh_sheet_words(s, "All $U_{a}$ vanish: $[Gamma,Z]$ lies in the canonical distribution for every current.");
-    else if (o->k)
-        conclude(s, &t->space->inside, "f", o->k == 1 ? "$U_{1}$" : "the $U_{a}$",
+    else if (model->k)
+        conclude(s, &t->space->inside, "f", model->k == 1 ? "$U_{1}$" : "the $U_{a}$",
                  "$[Gamma,Z]$ in the canonical distribution");
     if (t->space->all_case1) nh_sheet_words(s, "All $V$ vanish: every current has a field of case 1.");
     else conclude(s, &t->space->case1, "g", "all $V$", "a field of case 1");
@@ -205,7 +207,7 @@ static void show_action(nh_sheet *s, const nh_theory *t, const nh_symmetry_actio
 static void equations(nh_sheet *s, const nh_theory *t)
 {
     const nh_equation_symmetries *e = t->symmetries;
-    const nh_model *o = t->own->model;
+    const nh_model *model = t->own->model;
     nh_sheet_begin(
         s, "equation_symmetries", "Symmetries of the equations of motion",
         "Fields $S$ with $[Gamma,S]=a Gamma$, which need not be constraint symmetries: point symmetries on time and "
@@ -224,9 +226,9 @@ static void equations(nh_sheet *s, const nh_theory *t)
     for (size_t i = 0; i < e->points + e->dynamical; i++) {
         nh_sheet_sum(s, "", nh_sheet_label(s, "S_{%zu}", i + 1));
         nh_sheet_add(s, e->item[i].time, "\\frac{\\p}{\\p t}");
-        for (size_t r = 0; r < o->m; r++)
+        for (size_t r = 0; r < model->m; r++)
             nh_sheet_add(s, e->item[i].space[r],
-                         nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", o->system->coordinate[r].name));
+                         nh_sheet_label(s, "\\frac{\\p}{\\p<%s>}", model->system->coordinate[r].name));
     }
     if (e->dynamical)
         nh_sheet_words(s, "The dynamical ones are counted without combinations of point symmetries and of their "

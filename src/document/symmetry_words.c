@@ -13,46 +13,47 @@ typedef struct {
     size_t moved;           /* coordinates that move */
 } shape;
 
-static bool has_velocities(const nh_model *o, nh_ex e)
+static bool has_velocities(const nh_model *model, nh_ex e)
 {
-    for (size_t i = 0; i < o->n; i++)
-        if (nh_depends(o->dag, e, o->chart->w[i])) return true;
-    for (size_t i = 0; i < o->chart->implicit; i++)
-        if (nh_depends(o->dag, e, o->chart->u[i])) return true;
+    for (size_t i = 0; i < model->n; i++)
+        if (nh_depends(model->dag, e, model->chart->w[i])) return true;
+    for (size_t i = 0; i < model->chart->implicit; i++)
+        if (nh_depends(model->dag, e, model->chart->u[i])) return true;
     return false;
 }
 
 static void look(shape *x)
 {
-    const nh_model *o = x->o;
+    const nh_model *model = x->o;
     x->moved = 0;
     x->velocities = x->clock = false;
-    for (size_t s = 0; s <= o->m; s++) {
-        nh_ex e = s < o->m ? x->space[s] : x->time;
-        x->moved += s < o->m && !nh_is_zero(o->dag, e);
-        x->clock |= nh_depends(o->dag, e, o->system->t);
-        x->velocities |= has_velocities(o, e);
+    for (size_t s = 0; s <= model->m; s++) {
+        nh_ex e = s < model->m ? x->space[s] : x->time;
+        x->moved += s < model->m && !nh_is_zero(model->dag, e);
+        x->clock |= nh_depends(model->dag, e, model->system->t);
+        x->velocities |= has_velocities(model, e);
     }
 }
 
 /* Z + f Gamma moves the same solutions as Z.  With zeta = xi - tau v, the part of Z that is no motion, tau and xi are
  * the components of a field on (t, q), if they contain no velocities.  Free systems in coordinate velocities only. */
-static bool without_motion(const nh_model *o, const nh_symmetry *z, shape *x)
+static bool without_motion(const nh_model *model, const nh_symmetry *z, shape *x)
 {
     enum { longest = 200 };
-    nh_dag *d = o->dag;
-    if (o->k || o->n != o->m || o->framed || o->chart->quasi || o->chart->implicit) return false;
-    for (size_t i = 0; i < o->n; i++)
-        if (nh_kind_of(d, o->rho[i]) != NH_SYMBOL || nh_complexity(d, z->zeta[i]) > longest) return false;
-    nh_ex *xi = nh_arena_alloc(o->arena, o->m * sizeof *xi), tau = 0;
-    for (size_t s = 0; s < o->m; s++) {
+    nh_dag *d = model->dag;
+    if (model->k || model->n != model->m || model->framed || model->chart->quasi || model->chart->implicit)
+        return false;
+    for (size_t i = 0; i < model->n; i++)
+        if (nh_kind_of(d, model->rho[i]) != NH_SYMBOL || nh_complexity(d, z->zeta[i]) > longest) return false;
+    nh_ex *xi = nh_arena_alloc(model->arena, model->m * sizeof *xi), tau = 0;
+    for (size_t s = 0; s < model->m; s++) {
         nh_ex Q = nh_int(d, 0);
-        for (size_t i = 0; i < o->n; i++)
-            Q = nh_add(d, Q, nh_mul(d, z->zeta[i], nh_diff(d, o->rho[s], o->chart->w[i])));
-        if (!s) tau = nh_simplify(d, nh_neg(d, nh_diff(d, Q, o->rho[s])));
-        xi[s] = nh_simplify(d, nh_add(d, Q, nh_mul(d, tau, o->rho[s])));
+        for (size_t i = 0; i < model->n; i++)
+            Q = nh_add(d, Q, nh_mul(d, z->zeta[i], nh_diff(d, model->rho[s], model->chart->w[i])));
+        if (!s) tau = nh_simplify(d, nh_neg(d, nh_diff(d, Q, model->rho[s])));
+        xi[s] = nh_simplify(d, nh_add(d, Q, nh_mul(d, tau, model->rho[s])));
     }
-    *x = (shape){.o = o, .time = tau, .space = xi};
+    *x = (shape){.o = model, .time = tau, .space = xi};
     look(x);
     return !x->velocities;
 }
@@ -86,10 +87,10 @@ static bool is_boost(const shape *x)
 /* Do the components depend on t alone; on nothing (`constant`)? */
 static bool is_shift(const shape *x, bool constant)
 {
-    const nh_system *y = x->o->system;
+    const nh_system *system = x->o->system;
     for (size_t s = 0; s < x->o->m; s++) {
         for (size_t r = 0; r < x->o->m; r++)
-            if (nh_depends(x->o->dag, x->space[s], y->coordinate[r].q)) return false;
+            if (nh_depends(x->o->dag, x->space[s], system->coordinate[r].q)) return false;
         if (constant && !nh_model_is_constant(x->o, x->space[s])) return false;
     }
     return true;
@@ -170,21 +171,21 @@ static bool rotation_words(const shape *x, size_t rows, const char **how, nh_tex
     return true;
 }
 
-bool nh_symmetry_words(const nh_model *o, const nh_symmetry *z, const char **how, nh_text *what)
+bool nh_symmetry_words(const nh_model *model, const nh_symmetry *z, const char **how, nh_text *what)
 {
-    nh_dag *d = o->dag;
-    shape x = {.o = o, .time = z->field.time, .space = z->field.space};
+    nh_dag *d = model->dag;
+    shape x = {.o = model, .time = z->field.time, .space = z->field.space};
     size_t rows;
     look(&x);
-    if (x.velocities && !without_motion(o, z, &x)) {
+    if (x.velocities && !without_motion(model, z, &x)) {
         x.velocities = true;
-        for (size_t s = 0; s <= o->m; s++)
-            x.clock |= nh_depends(d, s < o->m ? z->field.space[s] : z->field.time, o->system->t);
+        for (size_t s = 0; s <= model->m; s++)
+            x.clock |= nh_depends(d, s < model->m ? z->field.space[s] : z->field.time, model->system->t);
         *how = involved(&x);
         return false;
     }
     bool time = !nh_is_zero(d, x.time);
-    if (time && !x.moved && nh_model_is_constant(o, x.time)) {
+    if (time && !x.moved && nh_model_is_constant(model, x.time)) {
         *how = "the symmetry in time";
         return false;
     }
@@ -192,7 +193,9 @@ bool nh_symmetry_words(const nh_model *o, const nh_symmetry *z, const char **how
     if (!time && is_shift(&x, true)) {
         size_t s = 0;
         while (nh_is_zero(d, x.space[s])) s++;
-        *how = x.moved > 1 ? "a joint shift of" : o->system->coordinate[s].type == NH_ANGLE ? "turning" : "shifting";
+        *how = x.moved > 1                                     ? "a joint shift of"
+               : model->system->coordinate[s].type == NH_ANGLE ? "turning"
+                                                               : "shifting";
     } else if (!time && is_boost(&x)) *how = "boosts along";
     else if (!time && is_shift(&x, false)) *how = "time-dependent shifts of";
     else if (is_scaling(&x)) *how = "a scaling of";

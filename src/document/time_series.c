@@ -19,14 +19,14 @@ static nh_time_series *make(const nh_model *model, const nh_observables *t, size
     return c;
 }
 
-nh_time_series *nh_time_series_of_analysis(const nh_analysis *r)
+nh_time_series *nh_time_series_of_analysis(const nh_analysis *result)
 {
-    const nh_validation *v = r->validation;
-    size_t k = r->model->k;
+    const nh_validation *v = result->validation;
+    size_t k = result->model->k;
     if (!v || !v->count) return NULL;
-    nh_time_series *c = make(r->model, &r->tracks, v->count, v->time, v->watch, v->watches);
+    nh_time_series *c = make(result->model, &result->tracks, v->count, v->time, v->watch, v->watches);
     c->drifts_elsewhere = true;
-    char *name = (char *)(c->line + r->tracks.count + k + 1);
+    char *name = (char *)(c->line + result->tracks.count + k + 1);
     for (size_t a = 0; a < k; a++, name += longest_name) {
         snprintf(name, longest_name, "c%zu", a + 1);
         c->line[c->lines++] = (nh_line){name, NH_TRACK_MULTIPLIER, v->multiplier + a, k};

@@ -254,12 +254,12 @@ static void question(nh_pen *p, const nh_verification *v)
 /* d/dt of the current along motions. */
 static nh_ex rate(const nh_verification *v)
 {
-    const nh_model *o = v->model;
-    nh_ex *term = nh_alloc_array(1 + o->m + o->n, sizeof *term), sum = nh_int(o->dag, 0);
-    nh_rate_terms(o, v->current, term);
-    for (size_t i = 0; i < 1 + o->m + o->n; i++) sum = nh_add(o->dag, sum, term[i]);
+    const nh_model *model = v->model;
+    nh_ex *term = nh_alloc_array(1 + model->m + model->n, sizeof *term), sum = nh_int(model->dag, 0);
+    nh_rate_terms(model, v->current, term);
+    for (size_t i = 0; i < 1 + model->m + model->n; i++) sum = nh_add(model->dag, sum, term[i]);
     nh_free(term);
-    return nh_simplify_short(o->dag, sum, 0);
+    return nh_simplify_short(model->dag, sum, 0);
 }
 
 static void put_yes(const nh_verification *v, bool colour, nh_text *out)
@@ -288,25 +288,25 @@ static void put_yes(const nh_verification *v, bool colour, nh_text *out)
 static void put_no(const nh_verification *v, bool colour, nh_text *out)
 {
     enum { short_rate = 120 };
-    const nh_model *o = v->model;
+    const nh_model *model = v->model;
     nh_text words;
     nh_text_init(&words);
     if (v->region) nh_text_addf(&words, "No. This is conserved only in a region: %s.", v->region);
     else nh_text_add(&words, "No. This changes along motions");
     if (v->has_counterexample && !v->region) {
         nh_text_add(&words, ", for example at ");
-        for (size_t j = 0; j < o->width; j++)
-            nh_text_addf(&words, "%s%s = %.5g", j ? ", " : "", nh_name_of(o->dag, o->chart->symbol[j]),
+        for (size_t j = 0; j < model->width; j++)
+            nh_text_addf(&words, "%s%s = %.5g", j ? ", " : "", nh_name_of(model->dag, model->chart->symbol[j]),
                          v->counterexample[j]);
         nh_text_addf(&words, ": its rate there is %.4g, not 0.", v->rate);
     } else if (!v->region) {
         nh_text_add(&words, ".");
     }
     nh_screen_begin(out, colour, v->system, NULL, &words);
-    nh_ex general = o->chart->implicit || v->region ? 0 : rate(v);
-    if (general && nh_complexity(o->dag, general) <= short_rate) {
+    nh_ex general = model->chart->implicit || v->region ? 0 : rate(v);
+    if (general && nh_complexity(model->dag, general) <= short_rate) {
         nh_text_add(out, "Its rate in general:\n");
-        nh_screen_equation("rate", o->dag, general, out);
+        nh_screen_equation("rate", model->dag, general, out);
     }
 }
 

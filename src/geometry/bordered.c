@@ -11,11 +11,11 @@
 #include "graph/dag.h"
 
 /* A simplified formula that would be much longer is not used: it is evaluated at every step. */
-nh_ex nh_constraint_without_poles(const nh_model *o, size_t a)
+nh_ex nh_constraint_without_poles(const nh_model *model, size_t a)
 {
     enum { short_enough = 300, growth = 2 };
-    nh_dag *d = o->dag;
-    nh_ex f = nh_chart_constraint(o->chart, a), numerator = nh_numerator(d, f);
+    nh_dag *d = model->dag;
+    nh_ex f = nh_chart_constraint(model->chart, a), numerator = nh_numerator(d, f);
     size_t length = nh_complexity(d, numerator);
     return length <= short_enough || length <= growth * nh_complexity(d, f) ? numerator : f;
 }
@@ -34,47 +34,49 @@ struct nh_bordered {
     double *unit;                   /* m: size of each velocity, so that those of lengths and angles compare */
 };
 
-void nh_bordered_expressions(const nh_model *o, nh_ex *K, nh_ex *h, nh_ex *F, nh_ex *g, nh_ex *f)
+void nh_bordered_expressions(const nh_model *model, nh_ex *K, nh_ex *h, nh_ex *F, nh_ex *g, nh_ex *f)
 {
-    const nh_system *y = o->system;
-    nh_dag *d = o->dag;
-    size_t m = o->m, k = o->k;
+    const nh_system *system = model->system;
+    nh_dag *d = model->dag;
+    size_t m = model->m, k = model->k;
     nh_ex *q = nh_alloc_array(2 * m, sizeof *q), *v = q + m;
-    for (size_t s = 0; s < m; s++) q[s] = y->coordinate[s].q, v[s] = y->coordinate[s].v;
-    nh_ex rest = y->lagrangian; /* the part of L that does not come from bodies and joints */
-    const nh_chain *chain = nh_model_chain(o, &rest);
+    for (size_t s = 0; s < m; s++) q[s] = system->coordinate[s].q, v[s] = system->coordinate[s].v;
+    nh_ex rest = system->lagrangian; /* the part of L that does not come from bodies and joints */
+    const nh_chain *chain = nh_model_chain(model, &rest);
     if (chain)
-        nh_chain_bias(chain, &(nh_chain_scope){.dag = d, .arena = o->arena, .t = y->t, .m = m, .q = q, .v = v}, h);
+        nh_chain_bias(chain, &(nh_chain_scope){.dag = d, .arena = model->arena, .t = system->t, .m = m, .q = q, .v = v},
+                      h);
     for (size_t s = 0; s < m; s++) {
         nh_ex p = nh_diff(d, rest, v[s]), own = chain ? h[s] : nh_int(d, 0);
-        h[s] = nh_sub(d, nh_diff(d, p, y->t), nh_add(d, nh_diff(d, rest, q[s]), y->force[s]));
+        h[s] = nh_sub(d, nh_diff(d, p, system->t), nh_add(d, nh_diff(d, rest, q[s]), system->force[s]));
         h[s] = nh_add(d, h[s], nh_diff_along(d, p, m, q, v));
         if (chain) h[s] = nh_add(d, h[s], own);
         for (size_t r = 0; r < m; r++) K[s + r * m] = nh_diff(d, p, v[r]);
         for (size_t r = 0; r < m && chain; r++) K[s + r * m] = nh_add(d, K[s + r * m], chain->K[s * m + r]);
     }
     for (size_t a = 0; a < k; a++) {
-        f[a] = nh_constraint_without_poles(o, a);
-        g[a] = nh_add(d, nh_diff(d, f[a], y->t), nh_diff_along(d, f[a], m, q, v));
+        f[a] = nh_constraint_without_poles(model, a);
+        g[a] = nh_add(d, nh_diff(d, f[a], system->t), nh_diff_along(d, f[a], m, q, v));
         for (size_t s = 0; s < m; s++) F[a + s * k] = nh_diff(d, f[a], v[s]);
     }
     nh_free(q);
 }
 
-nh_bordered *nh_bordered_create(const nh_model *o)
+nh_bordered *nh_bordered_create(const nh_model *model)
 {
-    const nh_system *y = o->system;
-    nh_dag *d = o->dag;
-    size_t m = o->m, k = o->k, total = m * m + m + k * m + 2 * k;
+    const nh_system *system = model->system;
+    nh_dag *d = model->dag;
+    size_t m = model->m, k = model->k, total = m * m + m + k * m + 2 * k;
     nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(total + 1, sizeof *out);
-    in[0] = y->t;
+    in[0] = system->t;
     for (size_t s = 0; s < m; s++) {
-        in[1 + s] = y->coordinate[s].q;
-        in[1 + m + s] = y->coordinate[s].v;
+        in[1 + s] = system->coordinate[s].q;
+        in[1 + m + s] = system->coordinate[s].v;
     }
-    nh_bordered_expressions(o, out, out + m * m, out + m * m + m, out + m * m + m + k * m, out + m * m + m + k * m + k);
+    nh_bordered_expressions(model, out, out + m * m, out + m * m + m, out + m * m + m + k * m,
+                            out + m * m + m + k * m + k);
     nh_bordered *b = nh_alloc(sizeof *b);
-    *b = (nh_bordered){.system = y,
+    *b = (nh_bordered){.system = system,
                        .m = m,
                        .k = k,
                        .in = nh_alloc_array(1 + 2 * m, sizeof *b->in),
@@ -84,13 +86,15 @@ nh_bordered *nh_bordered_create(const nh_model *o)
     b->right = nh_alloc_array(m + k, sizeof *b->right);
     b->two = nh_alloc_array(2 * (m + k) + 2 * m, sizeof *b->two);
     b->unit = nh_alloc_array(m + 1, sizeof *b->unit);
-    for (size_t s = 0; s < m; s++) b->unit[s] = nh_chart_unit(y, s);
-    b->tape = nh_tape_create(d, 1 + 2 * m, in, total, out, y->parameters, o->parameter, o->parameter_value);
+    for (size_t s = 0; s < m; s++) b->unit[s] = nh_chart_unit(system, s);
+    b->tape =
+        nh_tape_create(d, 1 + 2 * m, in, total, out, system->parameters, model->parameter, model->parameter_value);
     b->work = nh_tape_work_create(b->tape);
     nh_ex wall[NH_MOST_WALLS];
     b->walls = nh_walls_between(d, total, out, 1 + 2 * m, in, wall);
     if (b->walls)
-        b->wall = nh_tape_create(d, 1 + 2 * m, in, b->walls, wall, y->parameters, o->parameter, o->parameter_value),
+        b->wall = nh_tape_create(d, 1 + 2 * m, in, b->walls, wall, system->parameters, model->parameter,
+                                 model->parameter_value),
         b->wall_work = nh_tape_work_create(b->wall);
     nh_free(in);
     nh_free(out);

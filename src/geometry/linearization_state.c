@@ -22,13 +22,13 @@ void nh_linear_set(nh_linear_work *w)
 /* First what the user calls dependent, then lengths, then in the order of the file. */
 void nh_linear_order(const nh_linearization *l, const bool *last, size_t *order)
 {
-    const nh_system *y = l->system;
+    const nh_system *system = l->system;
     size_t count = 0, classes = 4;
     for (size_t class = 0; class < classes; class ++)
         for (size_t i = 0; i < l->m; i++) {
             bool named = false;
-            for (size_t j = 0; j < y->dependents; j++) named |= y->dependent[j] == i;
-            size_t of = last && last[i] ? 3 : named ? 0 : y->coordinate[i].type == NH_LENGTH ? 1 : 2;
+            for (size_t j = 0; j < system->dependents; j++) named |= system->dependent[j] == i;
+            size_t of = last && last[i] ? 3 : named ? 0 : system->coordinate[i].type == NH_LENGTH ? 1 : 2;
             if (of == class) order[count++] = i;
         }
 }
@@ -197,11 +197,11 @@ static bool off(nh_linear_work *w, const char *what, const nh_constraint *c, dou
     return nh_error_hint(error, "leave out %s that follow from the constraints, or add --project", what);
 }
 
-static const nh_constraint *position_constraint(const nh_system *y, size_t index)
+static const nh_constraint *position_constraint(const nh_system *system, size_t index)
 {
     size_t c = 0;
-    while (!y->constraint[c].position || index--) c++;
-    return &y->constraint[c];
+    while (!system->constraint[c].position || index--) c++;
+    return &system->constraint[c];
 }
 
 /* Typed numbers may be rounded: such a step is no projection. */

@@ -35,26 +35,26 @@ static void masses_clear(masses *a)
 }
 
 /* K (m x m) and R (m x n, row-major), for models that have no mass matrix yet; to be freed. */
-static nh_ex *factors(const nh_model *o)
+static nh_ex *factors(const nh_model *model)
 {
-    nh_dag *d = o->dag;
-    size_t m = o->m, n = o->n;
+    nh_dag *d = model->dag;
+    size_t m = model->m, n = model->n;
     nh_ex *e = nh_alloc_array(m * m + m * n + 1, sizeof *e);
     for (size_t r = 0; r < m; r++) {
-        nh_ex p = nh_diff(d, o->system->lagrangian, o->system->coordinate[r].v);
+        nh_ex p = nh_diff(d, model->system->lagrangian, model->system->coordinate[r].v);
         for (size_t s = 0; s <= r; s++)
-            e[r * m + s] = e[s * m + r] = nh_model_compose(o, nh_diff(d, p, o->system->coordinate[s].v));
-        for (size_t i = 0; i < n; i++) e[m * m + r * n + i] = nh_model_Y(o, i, o->rho[r]);
+            e[r * m + s] = e[s * m + r] = nh_model_compose(model, nh_diff(d, p, model->system->coordinate[s].v));
+        for (size_t i = 0; i < n; i++) e[m * m + r * n + i] = nh_model_Y(model, i, model->rho[r]);
     }
     return e;
 }
 
 /* Is M regular at almost all places, by its rank modulo primes?  False: it is not, or not known. */
-static bool regular_exactly(const nh_model *o)
+static bool regular_exactly(const nh_model *model)
 {
-    nh_dag *d = o->dag;
-    size_t m = o->m, n = o->n, rank = 0;
-    nh_ex *M = nh_alloc_array(n * n + 1, sizeof *M), *e = o->M ? NULL : factors(o);
+    nh_dag *d = model->dag;
+    size_t m = model->m, n = model->n, rank = 0;
+    nh_ex *M = nh_alloc_array(n * n + 1, sizeof *M), *e = model->M ? NULL : factors(model);
     for (size_t i = 0; i < n * n; i++) {
         nh_ex sum = nh_int(d, 0);
         for (size_t r = 0; r < m && e; r++)
@@ -62,7 +62,7 @@ static bool regular_exactly(const nh_model *o)
                 nh_ex *R = e + m * m, left = R[r * n + i / n], right = R[s * n + i % n];
                 sum = nh_add(d, sum, nh_mul(d, e[r * m + s], nh_mul(d, left, right)));
             }
-        M[i] = nh_model_values(o, o->M ? o->M[i] : sum);
+        M[i] = nh_model_values(model, model->M ? model->M[i] : sum);
     }
     bool regular = nh_generic_rank(d, n, n, M, &rank) && rank == n;
     nh_free(e);
@@ -71,9 +71,9 @@ static bool regular_exactly(const nh_model *o)
 }
 
 /* R^T K R from the values of the tape of `factors`. */
-static void multiply(const nh_model *o, const double *value, double *M)
+static void multiply(const nh_model *model, const double *value, double *M)
 {
-    size_t m = o->m, n = o->n;
+    size_t m = model->m, n = model->n;
     const double *K = value, *R = value + m * m;
     double *KR = nh_alloc_array(m * n + 1, sizeof *KR);
     memset(KR, 0, m * n * sizeof *KR);
@@ -87,22 +87,22 @@ static void multiply(const nh_model *o, const double *value, double *M)
     nh_free(KR);
 }
 
-static masses masses_of(const nh_model *o)
+static masses masses_of(const nh_model *model)
 {
-    size_t n = o->n, total = o->M ? n * n : o->m * (o->m + n);
+    size_t n = model->n, total = model->M ? n * n : model->m * (model->m + n);
     masses a = {.n = n,
-                .M = nh_alloc_array(o->chart->probes * n * n + 1, sizeof *a.M),
-                .at = nh_alloc_array(o->chart->probes + 1, sizeof *a.at)};
-    nh_ex *own = o->M ? NULL : factors(o);
-    nh_tape *tape = nh_model_tape(o, total, o->M ? o->M : own);
+                .M = nh_alloc_array(model->chart->probes * n * n + 1, sizeof *a.M),
+                .at = nh_alloc_array(model->chart->probes + 1, sizeof *a.at)};
+    nh_ex *own = model->M ? NULL : factors(model);
+    nh_tape *tape = nh_model_tape(model, total, model->M ? model->M : own);
     nh_tape_work *work = nh_tape_work_create(tape);
     double *value = nh_alloc_array(total + 1, sizeof *value);
-    for (size_t p = 0; p < o->chart->probes; p++) {
+    for (size_t p = 0; p < model->chart->probes; p++) {
         double *M = a.M + a.count * n * n;
-        nh_tape_eval(tape, work, o->chart->probe + p * o->width, value);
-        if (o->M) memcpy(M, value, n * n * sizeof *M);
-        else multiply(o, value, M);
-        if (nh_all_finite(n * n, M)) a.at[a.count++] = o->chart->probe + p * o->width;
+        nh_tape_eval(tape, work, model->chart->probe + p * model->width, value);
+        if (model->M) memcpy(M, value, n * n * sizeof *M);
+        else multiply(model, value, M);
+        if (nh_all_finite(n * n, M)) a.at[a.count++] = model->chart->probe + p * model->width;
     }
     nh_free(value);
     nh_free(own);
@@ -162,18 +162,18 @@ static size_t rank_at(const masses *a, size_t probe, double *null)
 }
 
 /* "y'" or "x' : z' = 1 : -0.5" */
-static void print_direction(const nh_model *o, const double *direction, nh_text *out)
+static void print_direction(const nh_model *model, const double *direction, nh_text *out)
 {
     const char *between = "";
     size_t moving = 0;
-    for (size_t i = 0; i < o->n; i++) {
+    for (size_t i = 0; i < model->n; i++) {
         if (direction[i] == 0) continue;
-        nh_text_addf(out, "%s%s", between, nh_name_of(o->dag, o->chart->w[i]));
+        nh_text_addf(out, "%s%s", between, nh_name_of(model->dag, model->chart->w[i]));
         between = " : ";
         moving++;
     }
     between = " = ";
-    for (size_t i = 0; i < o->n && moving > 1; i++) {
+    for (size_t i = 0; i < model->n && moving > 1; i++) {
         if (direction[i] == 0) continue;
         nh_text_addf(out, "%s%.4g", between, direction[i]);
         between = " : ";
@@ -181,17 +181,17 @@ static void print_direction(const nh_model *o, const double *direction, nh_text 
 }
 
 /* " of y' and of x' : z' = 1 : 2, at x = 0.3": with a place only where the directions depend on it. */
-static void print_directions(const nh_model *o, size_t count, const double *null, const double *place, nh_text *out)
+static void print_directions(const nh_model *model, size_t count, const double *null, const double *place, nh_text *out)
 {
     enum { most = 3 };
     nh_text_addf(out, "no inertia in the direction%s ", count > 1 ? "s" : "");
     for (size_t k = 0; k < count && k < most; k++) {
         nh_text_addf(out, "%s", k == 0 ? "" : k + 1 == count ? " and " : ", ");
-        print_direction(o, null + k * o->n, out);
+        print_direction(model, null + k * model->n, out);
     }
     if (count > most) nh_text_addf(out, " and %zu more", count - most);
-    for (size_t s = 0; s < o->m && place; s++)
-        nh_text_addf(out, "%s%s = %.3g", s ? ", " : " (at ", o->system->coordinate[s].name, place[1 + s]);
+    for (size_t s = 0; s < model->m && place; s++)
+        nh_text_addf(out, "%s%s = %.3g", s ? ", " : " (at ", model->system->coordinate[s].name, place[1 + s]);
     if (place) nh_text_addf(out, ")");
 }
 
@@ -218,49 +218,49 @@ static size_t typical(const masses *a, size_t *rank, double *null, bool *everywh
     return best;
 }
 
-bool nh_model_singular(const nh_model *o, nh_error *error)
+bool nh_model_singular(const nh_model *model, nh_error *error)
 {
-    const nh_deck_node *where = nh_deck_get(nh_deck_root(o->system->deck), "lagrangian");
-    if (!nh_first_order_refuse(o, error)) return false;
-    masses a = masses_of(o);
+    const nh_deck_node *where = nh_deck_get(nh_deck_root(model->system->deck), "lagrangian");
+    if (!nh_first_order_refuse(model, error)) return false;
+    masses a = masses_of(model);
     if (a.count == 0) {
         masses_clear(&a);
-        nh_deck_fail(o->system->deck, where, 0, error,
+        nh_deck_fail(model->system->deck, where, 0, error,
                      "the mass matrix of the Lagrangian is not finite at any point of the sampling domain");
         return nh_error_hint(error, "is a denominator 0, or a radicand negative?  Or does `domain:` lie outside the "
                                     "region where the Lagrangian is defined?");
     }
-    double *null = nh_alloc_array(o->n * o->n + 1, sizeof *null);
+    double *null = nh_alloc_array(model->n * model->n + 1, sizeof *null);
     size_t rank;
     bool everywhere;
     size_t best = typical(&a, &rank, null, &everywhere);
     nh_text which;
     nh_text_init(&which);
-    print_directions(o, rank < o->n ? o->n - rank : 1, null, everywhere ? NULL : a.at[best], &which);
+    print_directions(model, rank < model->n ? model->n - rank : 1, null, everywhere ? NULL : a.at[best], &which);
     nh_deck_fail(
-        o->system->deck, where, 0, error,
-        rank < o->n
+        model->system->deck, where, 0, error,
+        rank < model->n
             ? "the Lagrangian is singular on the constraint submanifold: its mass matrix has rank %zu of %zu; %.500s"
             : "the mass matrix of the Lagrangian has rank %zu of %zu but is singular in places of the sampling domain; "
               "%.500s",
-        rank, o->n, nh_text_string(&which));
+        rank, model->n, nh_text_string(&which));
     nh_text_clear(&which);
     nh_free(null);
     masses_clear(&a);
     return nh_error_hint(
         error,
-        rank < o->n
+        rank < model->n
             ? "every independent velocity needs inertia; a coordinate without any should be eliminated by a constraint"
             : "keep `domain:` away from there");
 }
 
 /* Where M is singular at every probe: scaled to a unit diagonal, it has a singular value of the size of rounding.  Its
  * rank modulo primes then decides: small inertia is inertia. */
-bool nh_model_regular(const nh_model *o, nh_error *error)
+bool nh_model_regular(const nh_model *model, nh_error *error)
 {
     static const double rounding = 1e-14; /* times n */
-    size_t n = o->n, found = 0;
-    masses a = masses_of(o);
+    size_t n = model->n, found = 0;
+    masses a = masses_of(model);
     double *unit = nh_alloc_array(2 * n + 1, sizeof *unit), *s = unit + n;
     for (size_t p = 0; p < a.count; p++) {
         double *M = a.M + p * n * n;
@@ -271,5 +271,5 @@ bool nh_model_regular(const nh_model *o, nh_error *error)
     bool regular = a.count < 2 || found < a.count;
     nh_free(unit);
     masses_clear(&a);
-    return regular || regular_exactly(o) || nh_model_singular(o, error);
+    return regular || regular_exactly(model) || nh_model_singular(model, error);
 }

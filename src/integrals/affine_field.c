@@ -33,19 +33,19 @@ typedef struct {
 } change;
 
 /* M^T zeta = Y(Phi) at a random point, with the values of the words there. */
-static bool values_at(const nh_model *o, nh_ball *ball, uint64_t *state, const nh_ex *M, const nh_ex *Y, size_t words,
-                      const nh_ex *word, double *work, double *zeta, double *row)
+static bool values_at(const nh_model *model, nh_ball *ball, uint64_t *state, const nh_ex *M, const nh_ex *Y,
+                      size_t words, const nh_ex *word, double *work, double *zeta, double *row)
 {
     double radius, rcond;
-    if (!nh_exact_point(o, ball, state)) return false;
-    for (size_t i = 0; i < o->n; i++) {
+    if (!nh_exact_point(model, ball, state)) return false;
+    for (size_t i = 0; i < model->n; i++) {
         if (!nh_ball_value(ball, Y[i], &zeta[i], &radius)) return false;
-        for (size_t j = 0; j < o->n; j++)
-            if (!nh_ball_value(ball, M[i * o->n + j], &work[j * o->n + i], &radius)) return false;
+        for (size_t j = 0; j < model->n; j++)
+            if (!nh_ball_value(ball, M[i * model->n + j], &work[j * model->n + i], &radius)) return false;
     }
     for (size_t b = 0; b < words; b++)
         if (!nh_ball_value(ball, word[b], &row[b], &radius)) return false;
-    return nh_solve(o->n, work, 1, zeta, &rcond);
+    return nh_solve(model->n, work, 1, zeta, &rcond);
 }
 
 /* The coefficients of each component (n x width), if they are short fractions that fit at all points; `row` is points x
@@ -77,37 +77,37 @@ static bool coefficients(size_t n, size_t points, size_t width, const double *ro
     return good;
 }
 
-static bool fit(const nh_model *o, size_t points, size_t width, const nh_ex *basis, const double *row,
+static bool fit(const nh_model *model, size_t points, size_t width, const nh_ex *basis, const double *row,
                 const double *value, nh_ex *zeta)
 {
-    nh_num *c = nh_alloc_array(o->n * width + 1, sizeof *c);
-    bool good = coefficients(o->n, points, width, row, value, c);
-    for (size_t i = 0; i < o->n && good; i++) zeta[i] = nh_linear(o->dag, width, c + i * width, basis);
+    nh_num *c = nh_alloc_array(model->n * width + 1, sizeof *c);
+    bool good = coefficients(model->n, points, width, row, value, c);
+    for (size_t i = 0; i < model->n && good; i++) zeta[i] = nh_linear(model->dag, width, c + i * width, basis);
     nh_free(c);
     return good;
 }
 
 /* e with the given values; one parameter may have another one. */
-static nh_ex valued(const nh_model *o, const change *other, nh_ex e)
+static nh_ex valued(const nh_model *model, const change *other, nh_ex e)
 {
-    if (other) e = nh_substitute(o->dag, e, 1, &o->parameter[other->parameter], &other->value);
-    return nh_model_values(o, e);
+    if (other) e = nh_substitute(model->dag, e, 1, &model->parameter[other->parameter], &other->value);
+    return nh_model_values(model, e);
 }
 
 /* Values of zeta (points x n) and of the words (points x words), column by column; false where there are too few. */
-static bool sample(const nh_model *o, nh_ex phi, const nh_options *options, const change *other, size_t points,
+static bool sample(const nh_model *model, nh_ex phi, const nh_options *options, const change *other, size_t points,
                    size_t words, const nh_ex *word, double *value, double *row)
 {
-    size_t found = 0, n = o->n;
+    size_t found = 0, n = model->n;
     nh_ex *M = nh_alloc_array(n * n + n + words + 1, sizeof *M), *Y = M + n * n, *exact = Y + n;
     double *work = nh_alloc_array(n * n + n + words + 1, sizeof *work), *here = work + n * n, *line = here + n;
-    for (size_t i = 0; i < n; i++) Y[i] = valued(o, other, nh_model_Y(o, i, phi));
-    for (size_t i = 0; i < n * n; i++) M[i] = valued(o, other, o->M[i]);
-    for (size_t b = 0; b < words; b++) exact[b] = valued(o, other, word[b]);
-    nh_ball *ball = nh_ball_create(o->dag, (long)options->bits);
+    for (size_t i = 0; i < n; i++) Y[i] = valued(model, other, nh_model_Y(model, i, phi));
+    for (size_t i = 0; i < n * n; i++) M[i] = valued(model, other, model->M[i]);
+    for (size_t b = 0; b < words; b++) exact[b] = valued(model, other, word[b]);
+    nh_ball *ball = nh_ball_create(model->dag, (long)options->bits);
     uint64_t state = (uint64_t)options->seed + 78;
     for (size_t tries = 0; tries < tries_per_point * points && found < points && !nh_interrupted(); tries++) {
-        if (!values_at(o, ball, &state, M, Y, words, exact, work, here, line)) continue;
+        if (!values_at(model, ball, &state, M, Y, words, exact, work, here, line)) continue;
         for (size_t i = 0; i < n; i++) value[i * points + found] = here[i];
         for (size_t k = 0; k < words; k++) row[k * points + found] = line[k];
         found++;
@@ -119,26 +119,26 @@ static bool sample(const nh_model *o, nh_ex phi, const nh_options *options, cons
 }
 
 /* 1, t, q, t q, and where centres of mass are: 2 + 3 m at most. */
-static size_t affine(const nh_model *o, const nh_options *options, nh_ex *basis)
+static size_t affine(const nh_model *model, const nh_options *options, nh_ex *basis)
 {
-    nh_ex t = o->system->t;
-    nh_centre_of_mass *centre = nh_alloc_array(o->m + 1, sizeof *centre);
-    size_t n = 0, centres = nh_centre_of_mass_find(o, (size_t)options->proof_terms, centre);
-    basis[n++] = nh_int(o->dag, 1);
+    nh_ex t = model->system->t;
+    nh_centre_of_mass *centre = nh_alloc_array(model->m + 1, sizeof *centre);
+    size_t n = 0, centres = nh_centre_of_mass_find(model, (size_t)options->proof_terms, centre);
+    basis[n++] = nh_int(model->dag, 1);
     basis[n++] = t;
-    for (size_t s = 0; s < o->m; s++) {
-        basis[n++] = o->system->coordinate[s].q;
-        basis[n++] = nh_mul(o->dag, t, o->system->coordinate[s].q);
+    for (size_t s = 0; s < model->m; s++) {
+        basis[n++] = model->system->coordinate[s].q;
+        basis[n++] = nh_mul(model->dag, t, model->system->coordinate[s].q);
     }
-    for (size_t i = 0; i < centres; i++) basis[n++] = nh_div(o->dag, centre[i].F, centre[i].mass);
+    for (size_t i = 0; i < centres; i++) basis[n++] = nh_div(model->dag, centre[i].F, centre[i].mass);
     nh_free(centre);
     return n;
 }
 
-size_t nh_affine_field_words(const nh_model *o, size_t a, size_t b, nh_ex out[NH_AFFINE_FIELD_WORDS])
+size_t nh_affine_field_words(const nh_model *model, size_t a, size_t b, nh_ex out[NH_AFFINE_FIELD_WORDS])
 {
-    nh_dag *d = o->dag;
-    const nh_coordinate *c = o->system->coordinate;
+    nh_dag *d = model->dag;
+    const nh_coordinate *c = model->system->coordinate;
     if (a == b || c[a].type != NH_ANGLE || c[b].type != NH_ANGLE) return 0;
     nh_ex cosine = nh_call(d, NH_COS, c[b].q), sine = nh_call(d, NH_SIN, c[b].q), tangent = nh_call(d, NH_TAN, c[b].q);
     nh_ex first[] = {nh_call(d, NH_COS, c[a].q), nh_call(d, NH_SIN, c[a].q)};
@@ -148,14 +148,14 @@ size_t nh_affine_field_words(const nh_model *o, size_t a, size_t b, nh_ex out[NH
 }
 
 /* 1, q and q q, from the values of 1 and q in `row`; the number of columns. */
-static size_t quadratic(const nh_model *o, size_t points, const nh_ex *word, const double *row, nh_ex *basis,
+static size_t quadratic(const nh_model *model, size_t points, const nh_ex *word, const double *row, nh_ex *basis,
                         double *out)
 {
     size_t width = 0;
-    for (size_t r = 0; r <= o->m; r++)
-        for (size_t s = r; s <= o->m; s++, width++) {
+    for (size_t r = 0; r <= model->m; r++)
+        for (size_t s = r; s <= model->m; s++, width++) {
             size_t a = r ? 2 * r : 0, b = s ? 2 * s : 0; /* where affine() puts 1 and q */
-            basis[width] = nh_mul(o->dag, word[a], word[b]);
+            basis[width] = nh_mul(model->dag, word[a], word[b]);
             for (size_t p = 0; p < points; p++) out[width * points + p] = row[a * points + p] * row[b * points + p];
         }
     return width;
@@ -177,29 +177,29 @@ static bool power_of(nh_dag *d, nh_num c, nh_num moved, nh_num ratio, nh_ex p, n
 
 /* What quadratic changes of coordinates make of turns, as far as there are points for so many functions. Coefficients
  * that are products of powers of parameters, as other values of these show, are written so. */
-static bool fit_quadratic(const nh_model *o, nh_ex phi, const nh_options *options, size_t points, size_t most,
+static bool fit_quadratic(const nh_model *model, nh_ex phi, const nh_options *options, size_t points, size_t most,
                           const nh_ex *word, const double *row, const double *value, nh_ex *zeta)
 {
-    nh_dag *d = o->dag;
-    size_t m = o->m, n = o->n, words = 1 + 2 * m;
+    nh_dag *d = model->dag;
+    size_t m = model->m, n = model->n, words = 1 + 2 * m;
     if (1 + m + m * (m + 1) / 2 > most) return false;
     nh_ex *basis = nh_alloc_array(most, sizeof *basis);
     double *some = nh_alloc_array(points * most, sizeof *some);
     double *other_value = nh_alloc_array(points * (n + words + 1), sizeof *other_value);
     double *other_row = other_value + points * n;
-    size_t width = quadratic(o, points, word, row, basis, some), all = n * width;
+    size_t width = quadratic(model, points, word, row, basis, some), all = n * width;
     nh_num *c = nh_alloc_array(2 * all + 1, sizeof *c), *moved = c + all, ratio = nh_num_int(2);
     nh_ex *coefficient = nh_alloc_array(all + 1, sizeof *coefficient);
     bool good = coefficients(n, points, width, some, value, c);
     for (size_t z = 0; z < all && good; z++) coefficient[z] = nh_number(d, c[z]);
     bool powers = good;
-    for (size_t k = 0; k < o->system->parameters && powers; k++) {
-        nh_ex p = o->parameter[k], p0 = nh_model_values(o, p);
+    for (size_t k = 0; k < model->system->parameters && powers; k++) {
+        nh_ex p = model->parameter[k], p0 = nh_model_values(model, p);
         if (!nh_depends(d, phi, p) || nh_kind_of(d, p0) != NH_NUMBER || nh_is_zero(d, p0)) continue;
         change other = {k, nh_mul(d, p0, nh_number(d, ratio))};
-        powers = sample(o, phi, options, &other, points, words, word, other_value, other_row);
+        powers = sample(model, phi, options, &other, points, words, word, other_value, other_row);
         if (!powers) break;
-        quadratic(o, points, word, other_row, basis, some);
+        quadratic(model, points, word, other_row, basis, some);
         powers = coefficients(n, points, width, some, other_value, moved);
         for (size_t z = 0; z < all && powers; z++)
             powers = power_of(d, c[z], moved[z], ratio, p, nh_number_of(d, p0), &coefficient[z]);
@@ -221,7 +221,7 @@ static bool fit_quadratic(const nh_model *o, nh_ex phi, const nh_options *option
 
 /* zeta^i = xi^i(t, q) - tau w^i with xi in the span of the words and a number tau: of an energy, also in coordinates
  * that move.  `velocity`: the values of w, points x n. */
-static bool fit_with_time(const nh_model *o, size_t points, size_t width, const nh_ex *basis, const double *row,
+static bool fit_with_time(const nh_model *model, size_t points, size_t width, const nh_ex *basis, const double *row,
                           const double *velocity, const double *value, nh_ex *zeta)
 {
     size_t all = width + 1;
@@ -231,13 +231,13 @@ static bool fit_with_time(const nh_model *o, size_t points, size_t width, const 
     memcpy(with, basis, width * sizeof *with);
     memcpy(some, row, points * width * sizeof *some);
     bool good = true;
-    for (size_t i = 0; i < o->n && good; i++) {
+    for (size_t i = 0; i < model->n && good; i++) {
         memcpy(some + points * width, velocity + i * points, points * sizeof *some);
         good = coefficients(1, points, all, some, value + i * points, c);
         if (good && i == 0) tau = c[width];
         good = good && nh_num_equal(tau, c[width]) && !nh_num_is(tau, 0);
-        with[width] = o->chart->w[i];
-        if (good) zeta[i] = nh_linear(o->dag, all, c, with);
+        with[width] = model->chart->w[i];
+        if (good) zeta[i] = nh_linear(model->dag, all, c, with);
     }
     nh_free(some);
     nh_free(with);
@@ -246,16 +246,16 @@ static bool fit_with_time(const nh_model *o, size_t points, size_t width, const 
 }
 
 /* Sums of positions as the system shows them, the sines and cosines in it, and what fields have in such coordinates. */
-static size_t written(const nh_model *o, nh_ex out[most_written])
+static size_t written(const nh_model *model, nh_ex out[most_written])
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     NH_LIST(call);
-    size_t places = nh_places_of(o, out), n = places, waves = 0,
-           calls = nh_functions_in(d, o->system->lagrangian, &call);
+    size_t places = nh_places_of(model, out), n = places, waves = 0,
+           calls = nh_functions_in(d, model->system->lagrangian, &call);
     for (size_t i = 0; i < calls && waves + 2 <= most_waves; i++) {
         nh_function f = nh_function_of(d, call[i]);
         bool moves = false, known = false;
-        for (size_t s = 0; s < o->m; s++) moves |= nh_depends(d, call[i], o->system->coordinate[s].v);
+        for (size_t s = 0; s < model->m; s++) moves |= nh_depends(d, call[i], model->system->coordinate[s].v);
         if ((f != NH_SIN && f != NH_COS) || moves) continue;
         for (size_t k = 0; k < n; k++) known |= out[k] == call[i];
         if (known) continue;
@@ -263,7 +263,7 @@ static size_t written(const nh_model *o, nh_ex out[most_written])
         out[n++] = call[i];
         out[n++] = nh_call(d, f == NH_SIN ? NH_COS : NH_SIN, nh_child(d, call[i], 0));
     }
-    return n + nh_shown_components(o, places, out, most_components, out + n);
+    return n + nh_shown_components(model, places, out, most_components, out + n);
 }
 
 /* Is the column a combination of the others? */
@@ -292,7 +292,7 @@ static void append(size_t points, nh_ex word, const double *column, nh_ex *all, 
 }
 
 /* In coordinates that hide a symmetry, or move: components in the span of what the system shows, too. */
-static bool fit_written(const nh_model *o, size_t points, size_t width, const nh_ex *basis, const double *row,
+static bool fit_written(const nh_model *model, size_t points, size_t width, const nh_ex *basis, const double *row,
                         size_t words, const nh_ex *word, const double *column, const double *velocity,
                         const double *value, nh_ex *zeta)
 {
@@ -302,15 +302,15 @@ static bool fit_written(const nh_model *o, size_t points, size_t width, const nh
     memcpy(all, basis, width * sizeof *all);
     memcpy(some, row, points * width * sizeof *some);
     for (size_t k = 0; k < words; k++) append(points, word[k], column + k * points, all, some, &n);
-    bool good = n > width && (fit(o, points, n, all, some, value, zeta) ||
-                              fit_with_time(o, points, n, all, some, velocity, value, zeta));
+    bool good = n > width && (fit(model, points, n, all, some, value, zeta) ||
+                              fit_with_time(model, points, n, all, some, velocity, value, zeta));
     nh_free(some);
     nh_free(all);
     return good;
 }
 
 /* The same by polynomials in the positions alone, without t: of fewer columns more digits are left. */
-static bool fit_still(const nh_model *o, size_t points, size_t words, const nh_ex *word, const double *column,
+static bool fit_still(const nh_model *model, size_t points, size_t words, const nh_ex *word, const double *column,
                       const double *value, nh_ex *zeta)
 {
     nh_ex *all = nh_alloc_array(words + 1, sizeof *all);
@@ -318,44 +318,45 @@ static bool fit_still(const nh_model *o, size_t points, size_t words, const nh_e
     double *some = nh_alloc_array(points * (words + 1), sizeof *some);
     size_t n = 0;
     for (size_t k = 0; k < words; k++) {
-        bool moves = nh_depends(o->dag, word[k], o->system->t) || nh_functions_in(o->dag, word[k], &call);
-        for (size_t s = 0; s < o->n && !moves; s++) moves = nh_depends(o->dag, word[k], o->chart->w[s]);
+        bool moves = nh_depends(model->dag, word[k], model->system->t) || nh_functions_in(model->dag, word[k], &call);
+        for (size_t s = 0; s < model->n && !moves; s++) moves = nh_depends(model->dag, word[k], model->chart->w[s]);
         if (!moves) append(points, word[k], column + k * points, all, some, &n);
     }
-    bool good = fit(o, points, n, all, some, value, zeta);
+    bool good = fit(model, points, n, all, some, value, zeta);
     nh_free(some);
     nh_free(all);
     return good;
 }
 
-bool nh_affine_field(const nh_model *o, nh_ex phi, const nh_options *options, nh_ex *zeta)
+bool nh_affine_field(const nh_model *model, nh_ex phi, const nh_options *options, nh_ex *zeta)
 {
-    size_t pairs = o->m * o->m;
-    nh_ex *word = nh_alloc_array(2 + 3 * o->m + pairs * NH_AFFINE_FIELD_WORDS + most_written + o->n, sizeof *word);
-    size_t width = affine(o, options, word);
+    size_t pairs = model->m * model->m;
+    nh_ex *word =
+        nh_alloc_array(2 + 3 * model->m + pairs * NH_AFFINE_FIELD_WORDS + most_written + model->n, sizeof *word);
+    size_t width = affine(model, options, word);
     nh_ex *end = word + width;
-    for (size_t p = 0; p < pairs; p++) end += nh_affine_field_words(o, p / o->m, p % o->m, end);
-    size_t shown = (size_t)(end - word), more = written(o, end), fields = shown + more, words = fields + o->n;
+    for (size_t p = 0; p < pairs; p++) end += nh_affine_field_words(model, p / model->m, p % model->m, end);
+    size_t shown = (size_t)(end - word), more = written(model, end), fields = shown + more, words = fields + model->n;
     size_t most = width + (more > most_plain ? more : most_plain), points = most + spare_points;
-    memcpy(end + more, o->chart->w, o->n * sizeof *end);
-    double *value = nh_alloc_array(points * o->n + 1, sizeof *value),
+    memcpy(end + more, model->chart->w, model->n * sizeof *end);
+    double *value = nh_alloc_array(points * model->n + 1, sizeof *value),
            *row = nh_alloc_array(points * words, sizeof *row), *some = nh_alloc_array(points * most, sizeof *some);
     nh_ex *basis = nh_alloc_array(most, sizeof *basis);
     memcpy(basis, word, width * sizeof *basis);
-    bool sampled = o->n > 0 && sample(o, phi, options, NULL, points, words, word, value, row),
-         good = sampled && fit(o, points, width, basis, row, value, zeta);
+    bool sampled = model->n > 0 && sample(model, phi, options, NULL, points, words, word, value, row),
+         good = sampled && fit(model, points, width, basis, row, value, zeta);
     memcpy(some, row, points * width * sizeof *some);
-    if (sampled && !good) good = fit_with_time(o, points, width, basis, row, row + points * fields, value, zeta);
+    if (sampled && !good) good = fit_with_time(model, points, width, basis, row, row + points * fields, value, zeta);
     for (size_t at = width; at < shown && sampled && !good; at += NH_AFFINE_FIELD_WORDS) {
         memcpy(basis + width, word + at, NH_AFFINE_FIELD_WORDS * sizeof *basis);
         memcpy(some + points * width, row + points * at, points * NH_AFFINE_FIELD_WORDS * sizeof *some);
-        good = fit(o, points, width + NH_AFFINE_FIELD_WORDS, basis, some, value, zeta);
+        good = fit(model, points, width + NH_AFFINE_FIELD_WORDS, basis, some, value, zeta);
     }
-    if (sampled && !good && more) good = fit_still(o, points, fields, word, row, value, zeta);
+    if (sampled && !good && more) good = fit_still(model, points, fields, word, row, value, zeta);
     if (sampled && !good)
-        good = fit_written(o, points, width, basis, row, more, word + shown, row + points * shown,
+        good = fit_written(model, points, width, basis, row, more, word + shown, row + points * shown,
                            row + points * fields, value, zeta);
-    if (sampled && !good) good = fit_quadratic(o, phi, options, points, most, word, row, value, zeta);
+    if (sampled && !good) good = fit_quadratic(model, phi, options, points, most, word, row, value, zeta);
     nh_free(basis);
     nh_free(some);
     nh_free(row);

@@ -121,16 +121,16 @@ static void zero(nh_dag *d, size_t n, nh_ex *e)
 
 nh_bracket_fields *nh_bracket_fields_of(nh_arena *arena, const nh_submanifold *submanifold)
 {
-    const nh_model *o = submanifold->model;
+    const nh_model *model = submanifold->model;
     nh_bracket_fields *out = nh_arena_alloc(arena, sizeof *out);
-    size_t m = o->m, n = o->n, width = 1 + m + n;
-    nh_dag *d = o->dag;
-    *out = (nh_bracket_fields){.width = width, .across = o->k, .all = m + n};
-    out->gamma = nh_arena_alloc(arena, (1 + o->k + m + n) * width * sizeof *out->gamma);
+    size_t m = model->m, n = model->n, width = 1 + m + n;
+    nh_dag *d = model->dag;
+    *out = (nh_bracket_fields){.width = width, .across = model->k, .all = m + n};
+    out->gamma = nh_arena_alloc(arena, (1 + model->k + m + n) * width * sizeof *out->gamma);
     out->U = out->gamma + width;
-    out->V = out->U + o->k * width;
-    zero(d, (1 + o->k + m + n) * width, out->gamma);
-    maker x = {o,
+    out->V = out->U + model->k * width;
+    zero(d, (1 + model->k + m + n) * width, out->gamma);
+    maker x = {model,
                d,
                m,
                n,
@@ -140,15 +140,15 @@ nh_bracket_fields *nh_bracket_fields_of(nh_arena *arena, const nh_submanifold *s
                nh_alloc_array(n * n + 1, sizeof(nh_ex))};
     nh_ex *half = nh_alloc_array(n * n + 1, sizeof *half);
     invert(&x);
-    multiply(d, m, n, n, o->R, x.inverse, false, x.P);
-    multiply(d, n, n, n, x.inverse, nh_model_G(o), true, half);
+    multiply(d, m, n, n, model->R, x.inverse, false, x.P);
+    multiply(d, n, n, n, x.inverse, nh_model_G(model), true, half);
     multiply(d, n, n, n, half, x.inverse, false, x.H);
     out->gamma[0] = nh_int(d, 1);
-    memcpy(out->gamma + 1, o->rho, m * sizeof *out->gamma);
-    memcpy(out->gamma + 1 + m, o->a, n * sizeof *out->gamma);
+    memcpy(out->gamma + 1, model->rho, m * sizeof *out->gamma);
+    memcpy(out->gamma + 1 + m, model->a, n * sizeof *out->gamma);
     for (size_t s = 0; s < m; s++) along_position(&x, s, out->V + s * width);
     for (size_t i = 0; i < n; i++) along_velocity(&x, i, out->V + (m + i) * width);
-    for (size_t a = 0; a < o->k; a++)
+    for (size_t a = 0; a < model->k; a++)
         for (size_t s = 0; s < m; s++)
             for (size_t c = 0; c < width; c++)
                 add(&x, &out->U[a * width + c],
@@ -160,8 +160,8 @@ nh_bracket_fields *nh_bracket_fields_of(nh_arena *arena, const nh_submanifold *s
     return out;
 }
 
-nh_ex nh_bracket_fields_apply(const nh_model *o, const nh_ex *field, nh_ex e)
+nh_ex nh_bracket_fields_apply(const nh_model *model, const nh_ex *field, nh_ex e)
 {
-    nh_field v = {field[0], (nh_ex *)field + 1, (nh_ex *)field + 1 + o->m};
-    return nh_model_along(o, &v, e);
+    nh_field v = {field[0], (nh_ex *)field + 1, (nh_ex *)field + 1 + model->m};
+    return nh_model_along(model, &v, e);
 }

@@ -69,10 +69,10 @@ static void draw(line *l, uint64_t *state)
 }
 
 /* 2 a u + b, or u alone where b = 0.  It has the other sign on the other branch: u is -u - b/a there. */
-static void describe(const nh_model *o, nh_branch_end *end)
+static void describe(const nh_model *model, nh_branch_end *end)
 {
-    nh_dag *d = o->dag;
-    const nh_chart *c = o->chart;
+    nh_dag *d = model->dag;
+    const nh_chart *c = model->chart;
     const nh_root *r = &c->root_of[0];
     nh_ex linear = nh_mul(d, nh_int(d, c->branch), r->value), slope = nh_diff(d, linear, r->symbol),
           zero = nh_int(d, 0), b = nh_substitute(d, linear, 1, &r->symbol, &zero);
@@ -81,20 +81,21 @@ static void describe(const nh_model *o, nh_branch_end *end)
     end->there = nh_neg(d, nh_add(d, c->rho[r->coordinate], nh_div(d, nh_mul(d, nh_int(d, 2), b), slope)));
 }
 
-nh_branch_end nh_branch_end_of(const nh_model *o, const nh_options *options, nh_arena *arena)
+nh_branch_end nh_branch_end_of(const nh_model *model, const nh_options *options, nh_arena *arena)
 {
     nh_branch_end out = {0};
-    const nh_chart *c = o->chart;
+    const nh_chart *c = model->chart;
     if (!c->branch || c->implicit || c->roots == 0) return out;
     uint64_t state = (uint64_t)options->seed + 7919;
-    nh_ex rate = nh_model_gamma(o, nh_sqrt(o->dag, c->radicand));
-    nh_ball *ball = nh_ball_create(o->dag, bits);
-    nh_exact_parameters(o, ball);
-    line l = {.o = o, .tape = nh_model_tape(o, 1, &c->radicand), .z = nh_alloc_array(3 * o->width, sizeof *l.z)};
+    nh_ex rate = nh_model_gamma(model, nh_sqrt(model->dag, c->radicand));
+    nh_ball *ball = nh_ball_create(model->dag, bits);
+    nh_exact_parameters(model, ball);
+    line l = {
+        .o = model, .tape = nh_model_tape(model, 1, &c->radicand), .z = nh_alloc_array(3 * model->width, sizeof *l.z)};
     l.work = nh_tape_work_create(l.tape);
-    l.origin = l.z + o->width;
-    l.direction = l.origin + o->width;
-    describe(o, &out);
+    l.origin = l.z + model->width;
+    l.direction = l.origin + model->width;
+    describe(model, &out);
     out.crossings.item = nh_arena_alloc(arena, wanted * sizeof *out.crossings.item);
     for (size_t k = 0; k < lines && out.crossings.count < wanted; k++) {
         nh_crossing *next = &out.crossings.item[out.crossings.count];
@@ -110,7 +111,7 @@ nh_branch_end nh_branch_end_of(const nh_model *o, const nh_options *options, nh_
     return out;
 }
 
-nh_ex nh_branch_end_beyond(const nh_model *o, const nh_branch_end *end, nh_ex phi)
+nh_ex nh_branch_end_beyond(const nh_model *model, const nh_branch_end *end, nh_ex phi)
 {
-    return nh_substitute(o->dag, nh_chart_shown(o->chart, phi), 1, &end->root, &end->there);
+    return nh_substitute(model->dag, nh_chart_shown(model->chart, phi), 1, &end->root, &end->there);
 }

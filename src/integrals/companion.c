@@ -35,15 +35,15 @@ static bool add_function(nh_dag *d, functions *f, size_t component, nh_ex term)
 }
 
 /* The terms of M^-1 Y(Phi) with all parameters at their values; false where they are long. */
-static bool find_functions(const nh_model *o, nh_ex phi, functions *f)
+static bool find_functions(const nh_model *model, nh_ex phi, functions *f)
 {
-    nh_dag *d = o->dag;
-    nh_ex *zeta = nh_alloc_array(2 * o->n + 1, sizeof *zeta), *right = zeta + o->n;
-    for (size_t j = 0; j < o->n; j++) right[j] = nh_model_Y(o, j, phi);
-    nh_lu_solve(o->M_lu, right, zeta);
+    nh_dag *d = model->dag;
+    nh_ex *zeta = nh_alloc_array(2 * model->n + 1, sizeof *zeta), *right = zeta + model->n;
+    for (size_t j = 0; j < model->n; j++) right[j] = nh_model_Y(model, j, phi);
+    nh_lu_solve(model->M_lu, right, zeta);
     bool good = true;
-    for (size_t i = 0; i < o->n && good; i++) {
-        nh_ex *part, e = nh_simplify_short(d, nh_fixed_values(o, NULL, zeta[i]), longest);
+    for (size_t i = 0; i < model->n && good; i++) {
+        nh_ex *part, e = nh_simplify_short(d, nh_fixed_values(model, NULL, zeta[i]), longest);
         good = nh_complexity(d, e) <= widest;
         if (!good) break;
         size_t n = nh_terms_of(d, e, &part);
@@ -55,28 +55,28 @@ static bool find_functions(const nh_model *o, nh_ex phi, functions *f)
 }
 
 /* y_0 X_0(b) + sum_j y_j Y_j(b) and y_0 A_i w - sum_j y_j M_ij w: one identity for all equations. */
-static void identities(const nh_model *o, size_t n, const nh_ex *term, const functions *f, nh_ex *e)
+static void identities(const nh_model *model, size_t n, const nh_ex *term, const functions *f, nh_ex *e)
 {
-    nh_dag *d = o->dag;
-    nh_ex *y = nh_alloc_array(o->n + 1, sizeof *y);
-    for (size_t j = 0; j <= o->n; j++) y[j] = nh_symbol_fresh(d, "y");
+    nh_dag *d = model->dag;
+    nh_ex *y = nh_alloc_array(model->n + 1, sizeof *y);
+    for (size_t j = 0; j <= model->n; j++) y[j] = nh_symbol_fresh(d, "y");
     for (size_t k = 0; k < n; k++) {
-        e[k] = nh_mul(d, y[o->n], nh_model_X0(o, term[k]));
-        for (size_t j = 0; j < o->n; j++) e[k] = nh_add(d, e[k], nh_mul(d, y[j], nh_model_Y(o, j, term[k])));
+        e[k] = nh_mul(d, y[model->n], nh_model_X0(model, term[k]));
+        for (size_t j = 0; j < model->n; j++) e[k] = nh_add(d, e[k], nh_mul(d, y[j], nh_model_Y(model, j, term[k])));
     }
     for (size_t a = 0; a < f->count; a++) {
         size_t i = f->component[a];
-        nh_ex sum = nh_mul(d, y[o->n], o->A[i]);
-        for (size_t j = 0; j < o->n; j++) sum = nh_sub(d, sum, nh_mul(d, y[j], o->M[i * o->n + j]));
+        nh_ex sum = nh_mul(d, y[model->n], model->A[i]);
+        for (size_t j = 0; j < model->n; j++) sum = nh_sub(d, sum, nh_mul(d, y[j], model->M[i * model->n + j]));
         e[n + a] = nh_mul(d, f->w[a], sum);
     }
     nh_free(y);
 }
 
 /* The coefficients c without their common factor: the relation of -sum_k (c_k/c_p) y_k and the y_k. */
-static void without_common_factor(const nh_model *o, size_t n, nh_ex *c, const nh_options *options)
+static void without_common_factor(const nh_model *model, size_t n, nh_ex *c, const nh_options *options)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     size_t p = 0;
     while (p < n && nh_is_zero(d, c[p])) p++;
     if (p == n) return;
@@ -86,35 +86,35 @@ static void without_common_factor(const nh_model *o, size_t n, nh_ex *c, const n
         if (k != p) sum = nh_sub(d, sum, nh_mul(d, nh_div(d, c[k], c[p]), e[k]));
     }
     e[p] = n > 1 ? sum : nh_int(d, 0);
-    size_t terms = (size_t)options->proof_terms, all = o->system->parameters;
-    bool good = nh_relation_find(d, n, e, all, o->parameter, terms, out) == NH_RELATION_UNIQUE;
+    size_t terms = (size_t)options->proof_terms, all = model->system->parameters;
+    bool good = nh_relation_find(d, n, e, all, model->parameter, terms, out) == NH_RELATION_UNIQUE;
     if (good) memcpy(c, out, n * sizeof *c);
     nh_free(e);
 }
 
-nh_fixed nh_companion_relation(const nh_model *o, size_t n, const nh_ex *term, const nh_options *options,
+nh_fixed nh_companion_relation(const nh_model *model, size_t n, const nh_ex *term, const nh_options *options,
                                nh_ex *coefficient)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_fixed found = {0};
     functions f = {0};
     nh_ex phi = nh_int(d, 0);
     double *like = nh_alloc_array(n + most_functions + 1, sizeof *like);
     nh_ex *e = nh_alloc_array(2 * (n + most_functions) + 1, sizeof *e), *c = e + n + most_functions;
-    bool good = o->n > 0;
+    bool good = model->n > 0;
     for (size_t k = 0; k < n && good; k++) {
         good = nh_kind_of(d, coefficient[k]) == NH_NUMBER;
         if (!good) break;
         like[k] = nh_num_value(nh_number_of(d, coefficient[k]));
-        phi = nh_add(d, phi, nh_mul(d, coefficient[k], nh_fixed_values(o, NULL, term[k])));
+        phi = nh_add(d, phi, nh_mul(d, coefficient[k], nh_fixed_values(model, NULL, term[k])));
     }
-    if (good && find_functions(o, phi, &f)) {
-        identities(o, n, term, &f, e);
+    if (good && find_functions(model, phi, &f)) {
+        identities(model, n, term, &f, e);
         memcpy(like + n, f.z, f.count * sizeof *like);
-        found = nh_fixed_relation(o, n + f.count, e, like, options, c);
+        found = nh_fixed_relation(model, n + f.count, e, like, options, c);
     }
     if (found.too_large) found = (nh_fixed){0};
-    if (found.found) without_common_factor(o, n, c, options);
+    if (found.found) without_common_factor(model, n, c, options);
     if (found.found) memcpy(coefficient, c, n * sizeof *c);
     nh_free(e);
     nh_free(like);
@@ -139,18 +139,18 @@ static void shorten(size_t n, const double *value, double *out)
     }
 }
 
-nh_fixed nh_companion_relation_nearby(const nh_model *o, size_t n, const nh_ex *term, const nh_ex *rate,
+nh_fixed nh_companion_relation_nearby(const nh_model *model, size_t n, const nh_ex *term, const nh_ex *rate,
                                       const double *like, const nh_options *options, nh_ex *coefficient)
 {
-    size_t all = o->system->parameters;
+    size_t all = model->system->parameters;
     double *value = nh_alloc_array(all + 1, sizeof *value);
     nh_ex *c = nh_alloc_array(n + 1, sizeof *c);
-    nh_model nearby = *o;
-    shorten(all, o->parameter_value, value);
+    nh_model nearby = *model;
+    shorten(all, model->parameter_value, value);
     nearby.parameter_value = value;
     nh_fixed found = nh_fixed_relation(&nearby, n, rate, NULL, options, c);
     if (found.found) found = nh_companion_relation(&nearby, n, term, options, c);
-    if (!found.all_parameters || !nh_fixed_is_like(o, n, c, like)) found = (nh_fixed){0};
+    if (!found.all_parameters || !nh_fixed_is_like(model, n, c, like)) found = (nh_fixed){0};
     if (found.found) memcpy(coefficient, c, n * sizeof *c);
     nh_free(c);
     nh_free(value);

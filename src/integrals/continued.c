@@ -12,15 +12,15 @@
 #include "system/sample.h"
 
 /* The sign of a quotient at a point of the box where it has one: 1 or -1; 0 where none was found. */
-static int sign_in_box(const nh_model *o, nh_ex quotient, uint64_t state)
+static int sign_in_box(const nh_model *model, nh_ex quotient, uint64_t state)
 {
     enum { tries = 20 };
-    const nh_chart *c = o->chart;
-    nh_tape *tape = nh_model_tape(o, 1, &quotient);
+    const nh_chart *c = model->chart;
+    nh_tape *tape = nh_model_tape(model, 1, &quotient);
     nh_tape_work *work = nh_tape_work_create(tape);
-    double *z = nh_alloc_array(o->width, sizeof *z), value = NAN;
+    double *z = nh_alloc_array(model->width, sizeof *z), value = NAN;
     for (int k = 0; k < tries && !(isfinite(value) && value != 0); k++) {
-        for (size_t j = 0; j < o->width; j++) z[j] = c->low[j] + (c->high[j] - c->low[j]) * nh_random(&state);
+        for (size_t j = 0; j < model->width; j++) z[j] = c->low[j] + (c->high[j] - c->low[j]) * nh_random(&state);
         if (nh_chart_complete(c, z)) nh_tape_eval(tape, work, z, &value);
     }
     nh_free(z);
@@ -42,25 +42,25 @@ static bool take_out(nh_dag *d, nh_ex base, nh_ex *outside, nh_ex *inside)
     return nh_kind_of(d, *outside) != NH_NUMBER;
 }
 
-nh_ex nh_continued_roots(const nh_model *o, nh_ex phi, uint64_t seed)
+nh_ex nh_continued_roots(const nh_model *model, nh_ex phi, uint64_t seed)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     NH_LIST(base);
     nh_ex outside, inside;
     size_t n = nh_radicands_in(d, phi, &base);
     for (size_t i = 0; i < n; i++) {
         if (nh_kind_of(d, base[i]) <= NH_SYMBOL || !take_out(d, base[i], &outside, &inside)) continue;
         nh_ex root = nh_mul(d, outside, nh_sqrt(d, inside));
-        int sign = sign_in_box(o, nh_div(d, root, nh_sqrt(d, base[i])), seed);
+        int sign = sign_in_box(model, nh_div(d, root, nh_sqrt(d, base[i])), seed);
         if (sign) phi = nh_substitute_root(d, phi, base[i], sign > 0 ? root : nh_neg(d, root));
     }
     return phi;
 }
 
-nh_ex nh_continued_arctangents(const nh_model *o, nh_ex phi)
+nh_ex nh_continued_arctangents(const nh_model *model, nh_ex phi)
 {
     enum { most = 64 };
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     NH_LIST(call);
     nh_ex by[most];
     size_t n = nh_functions_in(d, phi, &call), count = 0;
@@ -107,16 +107,16 @@ static void sides(nh_dag *d, nh_ex u, nh_ex *A, nh_ex *B)
     }
 }
 
-static bool is_constant(const nh_model *o, nh_ex e)
+static bool is_constant(const nh_model *model, nh_ex e)
 {
-    return nh_normal_is_zero(o->dag, nh_model_gamma(o, e), 0) == NH_ZERO;
+    return nh_normal_is_zero(model->dag, nh_model_gamma(model, e), 0) == NH_ZERO;
 }
 
 /* Coordinates, exponentials, sines, cosines and tangents in e. */
-static size_t letters_of(const nh_model *o, nh_ex e, size_t most, nh_ex *letter)
+static size_t letters_of(const nh_model *model, nh_ex e, size_t most, nh_ex *letter)
 {
     enum { most_calls = 8 };
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     NH_LIST(call);
     size_t calls = nh_functions_in(d, e, &call), count = 0;
     for (size_t i = 0; i < calls && calls <= most_calls && count + 2 < most; i++) {
@@ -127,40 +127,40 @@ static size_t letters_of(const nh_model *o, nh_ex e, size_t most, nh_ex *letter)
         letter[count++] = nh_call(d, NH_COS, nh_child(d, call[i], 0));
         letter[count++] = nh_call(d, NH_TAN, nh_child(d, call[i], 0));
     }
-    for (size_t i = 1; i <= o->m && count < most; i++)
-        if (nh_depends(d, e, o->chart->symbol[i])) letter[count++] = o->chart->symbol[i];
+    for (size_t i = 1; i <= model->m && count < most; i++)
+        if (nh_depends(d, e, model->chart->symbol[i])) letter[count++] = model->chart->symbol[i];
     return count;
 }
 
 /* The root of the factor by which e must be divided to be a constant of the motion: 1, or a power of a letter, which
  * may change its sign; 0: there is none. */
-static nh_ex root_of_scale(const nh_model *o, nh_ex e)
+static nh_ex root_of_scale(const nh_model *model, nh_ex e)
 {
     enum { most = 24, highest = 4 };
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex letter[most];
-    if (is_constant(o, e)) return nh_int(d, 1);
-    size_t letters = letters_of(o, e, most, letter);
+    if (is_constant(model, e)) return nh_int(d, 1);
+    size_t letters = letters_of(model, e, most, letter);
     for (int power = 1; power <= highest; power++)
         for (size_t i = 0; i < 2 * letters; i++) {
             int own = i % 2 ? -power : power;
-            if (!is_constant(o, nh_div(d, e, nh_powi(d, letter[i / 2], own)))) continue;
+            if (!is_constant(model, nh_div(d, e, nh_powi(d, letter[i / 2], own)))) continue;
             return nh_pow(d, letter[i / 2], nh_ratio(d, own, 2));
         }
     return 0;
 }
 
-nh_ex nh_continued_turns(const nh_model *o, nh_ex phi)
+nh_ex nh_continued_turns(const nh_model *model, nh_ex phi)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex call, rest, factor, A, B, outside, inside;
     if (!only_arctangent(d, phi, &call, &rest, &factor)) return phi;
     sides(d, nh_child(d, call, 0), &A, &B);
     nh_ex sum = nh_simplify_short(d, nh_add(d, nh_powi(d, A, 2), nh_powi(d, B, 2)), 0);
     if (!nh_square_split(d, sum, &outside, &inside)) return phi;
     nh_ex angle = nh_simplify_short(d, nh_div(d, rest, factor), 0), S = nh_int(d, 1);
-    if (!is_constant(o, sum)) {
-        nh_ex root = root_of_scale(o, inside);
+    if (!is_constant(model, sum)) {
+        nh_ex root = root_of_scale(model, inside);
         S = nh_mul(d, outside, root ? root : nh_sqrt(d, inside));
     }
     A = nh_simplify_short(d, nh_div(d, A, S), 0);

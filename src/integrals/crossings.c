@@ -367,36 +367,36 @@ static void follow_motion(finder *x, double way)
 
 static void create(finder *x)
 {
-    const nh_model *o = x->o;
+    const nh_model *model = x->o;
     size_t width = x->explicit_width, n = x->walls->count, k = 0;
     nh_ex *e = nh_alloc_array(n * (1 + width) + x->walls->parts + 1, sizeof *e);
     for (size_t i = 0; i < n; i++) {
         e[k++] = x->walls->e[i];
-        for (size_t j = 0; j < width; j++) e[k++] = nh_diff(o->dag, x->walls->e[i], o->chart->symbol[j]);
+        for (size_t j = 0; j < width; j++) e[k++] = nh_diff(model->dag, x->walls->e[i], model->chart->symbol[j]);
     }
     for (size_t i = 0; i < x->walls->parts; i++) e[k++] = x->walls->part[i];
-    x->tape = nh_model_tape(o, k, e);
+    x->tape = nh_model_tape(model, k, e);
     x->work = nh_tape_work_create(x->tape);
     x->out = nh_alloc_array(k + 1, sizeof *x->out);
     nh_free(e);
     x->rate = nh_alloc_array(width, sizeof *x->rate);
-    x->rate[0] = nh_int(o->dag, 1);
-    memcpy(x->rate + 1, o->rho, o->m * sizeof *x->rate);
-    memcpy(x->rate + 1 + o->m, o->a, o->n * sizeof *x->rate);
-    x->rates = nh_model_tape(o, width, x->rate);
+    x->rate[0] = nh_int(model->dag, 1);
+    memcpy(x->rate + 1, model->rho, model->m * sizeof *x->rate);
+    memcpy(x->rate + 1 + model->m, model->a, model->n * sizeof *x->rate);
+    x->rates = nh_model_tape(model, width, x->rate);
     x->rates_work = nh_tape_work_create(x->rates);
     x->passing = nh_alloc_array(2 * width, sizeof *x->passing);
-    x->ball = nh_ball_create(o->dag, bits);
-    nh_exact_parameters(o, x->ball);
-    size_t room = o->width > 1 + 2 * o->m ? o->width : 1 + 2 * o->m;
+    x->ball = nh_ball_create(model->dag, bits);
+    nh_exact_parameters(model, x->ball);
+    size_t room = model->width > 1 + 2 * model->m ? model->width : 1 + 2 * model->m;
     x->z = nh_alloc_array(6 * room, sizeof *x->z);
     x->origin = x->z + room;
     x->direction = x->origin + room;
     x->half = x->direction + room;
     x->position = x->half + room;
     x->middle = x->position + room;
-    for (size_t j = 0; j < width; j++) x->half[j] = (o->chart->high[j] - o->chart->low[j]) / 2;
-    for (size_t j = 0; j < width; j++) x->middle[j] = (o->chart->high[j] + o->chart->low[j]) / 2;
+    for (size_t j = 0; j < width; j++) x->half[j] = (model->chart->high[j] - model->chart->low[j]) / 2;
+    for (size_t j = 0; j < width; j++) x->middle[j] = (model->chart->high[j] + model->chart->low[j]) / 2;
 }
 
 static void clear(finder *x)
@@ -432,23 +432,23 @@ static void draw_in_chart(finder *x, bool wide, uint64_t *state)
 /* One through the box of t, q and v. */
 static void draw_in_velocities(finder *x, uint64_t *state)
 {
-    const nh_system *s = x->o->system;
+    const nh_system *system = x->o->system;
     for (size_t j = 0; j < 1 + 2 * x->o->m; j++) {
         double low, high;
-        const nh_coordinate *c = j ? &s->coordinate[(j - 1) % x->o->m] : NULL;
-        nh_chart_range(x->o->chart, !c ? s->t : j <= x->o->m ? c->q : c->v, &low, &high);
+        const nh_coordinate *c = j ? &system->coordinate[(j - 1) % x->o->m] : NULL;
+        nh_chart_range(x->o->chart, !c ? system->t : j <= x->o->m ? c->q : c->v, &low, &high);
         x->origin[j] = low + (high - low) * nh_random(state);
         x->direction[j] = (high - low) / 2 * (2 * nh_random(state) - 1);
     }
 }
 
-nh_crossings nh_crossings_find(const nh_model *o, const nh_walls *walls, uint64_t *state, nh_arena *arena)
+nh_crossings nh_crossings_find(const nh_model *model, const nh_walls *walls, uint64_t *state, nh_arena *arena)
 {
-    finder x = {.o = o, .walls = walls, .explicit_width = o->width - o->chart->implicit, .arena = arena};
+    finder x = {.o = model, .walls = walls, .explicit_width = model->width - model->chart->implicit, .arena = arena};
     if (walls->count == 0) return x.list;
     gsl_set_error_handler_off();
     create(&x);
-    x.way = nh_open_way_create(o);
+    x.way = nh_open_way_create(model);
     x.list.item = nh_arena_alloc(arena, 2 * walls->count * most_wanted * sizeof *x.list.item);
     /* of long equations fewer: every crossing costs many of their evaluations */
     double part = fmin(1, long_rates / (double)(1 + nh_tape_length(x.rates)));
@@ -458,12 +458,12 @@ nh_crossings nh_crossings_find(const nh_model *o, const nh_walls *walls, uint64_
         draw_in_chart(&x, false, state);
         follow_motion(&x, motion % 2 ? 1 : -1);
     }
-    x.begin = nh_arena_alloc(arena, o->width * sizeof *x.begin);
+    x.begin = nh_arena_alloc(arena, model->width * sizeof *x.begin);
     for (size_t line = 0; line < few; line++) {
         draw_in_chart(&x, line % 2, state);
         follow_line(&x);
     }
-    x.projector = nh_projector_create(o, x.ball);
+    x.projector = nh_projector_create(model, x.ball);
     memset(x.found, 0, sizeof x.found);
     memset(x.tried, 0, sizeof x.tried);
     for (size_t line = 0; line < lines && x.projector; line++) {

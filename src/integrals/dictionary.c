@@ -47,34 +47,34 @@ static void add(harvester *h, size_t *n, nh_ex *list, nh_ex e)
     list[(*n)++] = e;
 }
 
-static bool has_velocity(const nh_model *o, nh_ex e)
+static bool has_velocity(const nh_model *model, nh_ex e)
 {
-    for (size_t s = 0; s < o->m; s++)
-        if (nh_depends(o->dag, e, o->system->coordinate[s].v)) return true;
-    for (size_t i = 0; i < o->n; i++)
-        if (nh_depends(o->dag, e, o->chart->w[i])) return true;
+    for (size_t s = 0; s < model->m; s++)
+        if (nh_depends(model->dag, e, model->system->coordinate[s].v)) return true;
+    for (size_t i = 0; i < model->n; i++)
+        if (nh_depends(model->dag, e, model->chart->w[i])) return true;
     return false;
 }
 
-static bool has_position(const nh_model *o, nh_ex e)
+static bool has_position(const nh_model *model, nh_ex e)
 {
-    if (nh_depends(o->dag, e, o->system->t)) return true;
-    for (size_t s = 0; s < o->m; s++)
-        if (nh_depends(o->dag, e, o->system->coordinate[s].q)) return true;
+    if (nh_depends(model->dag, e, model->system->t)) return true;
+    for (size_t s = 0; s < model->m; s++)
+        if (nh_depends(model->dag, e, model->system->coordinate[s].q)) return true;
     return false;
 }
 
 /* Linear and homogeneous in the velocities? */
-static bool is_form(const nh_model *o, nh_ex e)
+static bool is_form(const nh_model *model, nh_ex e)
 {
-    nh_dag *d = o->dag;
-    nh_ex *v = nh_alloc_array(2 * o->m + o->n + 1, sizeof *v),
-          *zero = nh_alloc_array(2 * o->m + o->n + 1, sizeof *zero);
+    nh_dag *d = model->dag;
+    nh_ex *v = nh_alloc_array(2 * model->m + model->n + 1, sizeof *v),
+          *zero = nh_alloc_array(2 * model->m + model->n + 1, sizeof *zero);
     size_t n = 0;
     bool form = true;
-    for (size_t s = 0; s < o->m; s++) v[n++] = o->system->coordinate[s].v;
-    for (size_t i = 0; i < o->n && o->chart->quasi; i++) v[n++] = o->chart->w[i];
-    for (size_t i = 0; i < n && form; i++) form = !nh_depends(d, e, v[i]) || !has_velocity(o, nh_diff(d, e, v[i]));
+    for (size_t s = 0; s < model->m; s++) v[n++] = model->system->coordinate[s].v;
+    for (size_t i = 0; i < model->n && model->chart->quasi; i++) v[n++] = model->chart->w[i];
+    for (size_t i = 0; i < n && form; i++) form = !nh_depends(d, e, v[i]) || !has_velocity(model, nh_diff(d, e, v[i]));
     form = form && nh_is_zero(d, nh_substitute(d, e, n, v, zero));
     nh_free(zero);
     nh_free(v);
@@ -141,12 +141,12 @@ static void add_logarithm(harvester *h, nh_ex base, bool of_time_alone)
 }
 
 /* Is the frequency that of a coordinate?  The stages have such waves already.  A force with cos t adds none. */
-static bool plain_wave(const nh_model *o, nh_ex e)
+static bool plain_wave(const nh_model *model, nh_ex e)
 {
-    nh_function f = nh_function_of(o->dag, e);
+    nh_function f = nh_function_of(model->dag, e);
     if (f != NH_SIN && f != NH_COS && f != NH_TAN) return false;
-    nh_ex angle = nh_child(o->dag, e, 0);
-    return nh_kind_of(o->dag, angle) == NH_SYMBOL && angle != o->system->t;
+    nh_ex angle = nh_child(model->dag, e, 0);
+    return nh_kind_of(model->dag, angle) == NH_SYMBOL && angle != model->system->t;
 }
 
 static void add_wave(harvester *h, nh_ex e)
@@ -160,9 +160,9 @@ static void add_wave(harvester *h, nh_ex e)
 }
 
 /* u with e = |u|: of abs(u), and of the root of a square; 0 where e is neither. */
-static nh_ex inside_of_absolute(const nh_model *o, nh_ex e)
+static nh_ex inside_of_absolute(const nh_model *model, nh_ex e)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     if (nh_kind_of(d, e) == NH_FUNCTION) return nh_function_of(d, e) == NH_ABS ? nh_child(d, e, 0) : 0;
     if (nh_kind_of(d, e) != NH_PRODUCT || nh_arity(d, e) != 1 || !nh_num_is(nh_constant_of(d, e), 1)) return 0;
     nh_ex x = nh_exponent_of(d, e, 0), square = nh_simplify_short(d, nh_child(d, e, 0), 0);
@@ -221,12 +221,12 @@ static void walk(harvester *h, nh_ex e)
 }
 
 /* Does the part that depends on position have even powers only? */
-static bool is_square(const nh_model *o, nh_ex product)
+static bool is_square(const nh_model *model, nh_ex product)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     for (size_t i = 0; i < nh_arity(d, product); i++) {
         nh_ex x = nh_exponent_of(d, product, i);
-        if (has_position(o, nh_child(d, product, i)) &&
+        if (has_position(model, nh_child(d, product, i)) &&
             (nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || nh_number_of(d, x).p % 2))
             return false;
     }
@@ -244,11 +244,11 @@ static void add_root(harvester *h, nh_ex e)
 }
 
 /* Determinant of the mass matrix, of at most three velocities. */
-static nh_ex determinant(const nh_model *o)
+static nh_ex determinant(const nh_model *model)
 {
-    nh_dag *d = o->dag;
-    const nh_ex *M = o->M;
-    size_t n = o->n;
+    nh_dag *d = model->dag;
+    const nh_ex *M = model->M;
+    size_t n = model->n;
     nh_ex det = nh_int(d, 0);
     if (n == 1) return M[0];
     if (n == 2) return nh_sub(d, nh_mul(d, M[0], M[3]), nh_mul(d, M[1], M[2]));
@@ -263,14 +263,14 @@ static nh_ex determinant(const nh_model *o)
 /* ---- the frame ---- */
 
 /* The root of the factor of e that depends on position, where it has even powers only: sin(h)^2 -> sin(h). */
-static nh_ex even_root(const nh_model *o, nh_ex e)
+static nh_ex even_root(const nh_model *model, nh_ex e)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex root = nh_int(d, 1);
     if (nh_kind_of(d, e) != NH_PRODUCT) return root;
     for (size_t i = 0; i < nh_arity(d, e); i++) {
         nh_ex base = nh_child(d, e, i), x = nh_exponent_of(d, e, i);
-        if (!has_position(o, base)) continue;
+        if (!has_position(model, base)) continue;
         nh_num power = nh_kind_of(d, x) == NH_NUMBER ? nh_number_of(d, x) : nh_num_int(1);
         if (power.q != 1 || power.p % 2) return nh_int(d, 1);
         root = nh_mul(d, root, nh_powi(d, base, power.p / 2));
@@ -278,12 +278,12 @@ static nh_ex even_root(const nh_model *o, nh_ex e)
     return root;
 }
 
-static size_t simplest_pivot(const nh_model *o, const nh_ex *M, const bool *done)
+static size_t simplest_pivot(const nh_model *model, const nh_ex *M, const bool *done)
 {
-    size_t best = o->n, least = SIZE_MAX;
-    for (size_t i = 0; i < o->n; i++) {
-        size_t size = nh_complexity(o->dag, M[i * o->n + i]);
-        if (done[i] || nh_is_zero(o->dag, M[i * o->n + i]) || size >= least) continue;
+    size_t best = model->n, least = SIZE_MAX;
+    for (size_t i = 0; i < model->n; i++) {
+        size_t size = nh_complexity(model->dag, M[i * model->n + i]);
+        if (done[i] || nh_is_zero(model->dag, M[i * model->n + i]) || size >= least) continue;
         least = size;
         best = i;
     }
@@ -294,26 +294,26 @@ static size_t simplest_pivot(const nh_model *o, const nh_ex *M, const bool *done
 static void frame(harvester *h)
 {
     enum { most = 5 };
-    nh_model *o = h->o;
-    nh_dag *d = o->dag;
-    size_t n = o->n;
+    nh_model *model = h->o;
+    nh_dag *d = model->dag;
+    size_t n = model->n;
     nh_ex M[most * most];
     bool done[most] = {false}, moving = false;
     if (n > most) return;
     for (size_t i = 0; i < n * n; i++) {
-        M[i] = nh_complexity(d, o->M[i]) > 4 * longest ? 0 : nh_simplify(d, o->M[i]);
-        moving |= has_position(o, M[i]);
-        if (nh_complexity(d, o->M[i]) > 4 * longest || has_velocity(o, M[i])) return;
+        M[i] = nh_complexity(d, model->M[i]) > 4 * longest ? 0 : nh_simplify(d, model->M[i]);
+        moving |= has_position(model, M[i]);
+        if (nh_complexity(d, model->M[i]) > 4 * longest || has_velocity(model, M[i])) return;
     }
     if (!moving) return;
     for (size_t step = 0; step < n; step++) {
-        size_t p = simplest_pivot(o, M, done);
+        size_t p = simplest_pivot(model, M, done);
         if (p == n) break;
-        nh_ex form = o->chart->w[p], pivot = M[p * n + p];
+        nh_ex form = model->chart->w[p], pivot = M[p * n + p];
         done[p] = true;
         for (size_t j = 0; j < n; j++)
-            if (!done[j]) form = nh_add(d, form, nh_mul(d, nh_div(d, M[p * n + j], pivot), o->chart->w[j]));
-        add(h, &h->out->frames, h->out->frame, nh_mul(d, even_root(o, pivot), form));
+            if (!done[j]) form = nh_add(d, form, nh_mul(d, nh_div(d, M[p * n + j], pivot), model->chart->w[j]));
+        add(h, &h->out->frames, h->out->frame, nh_mul(d, even_root(model, pivot), form));
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j < n; j++)
                 if (!done[i] && !done[j])
@@ -340,12 +340,13 @@ static void add_roots_of(harvester *h, nh_ex e)
    them. */
 static void add_roots(harvester *h)
 {
-    nh_model *o = h->o;
-    add_roots_of(h, nh_simplify_short(o->dag, determinant(o), 0));
-    for (size_t i = 0; i < o->n; i++) {
-        nh_ex length = nh_powi(o->dag, even_root(o, o->M[i * o->n + i]), -1); /* x'^2/x^2: log x is the length */
-        add_roots_of(h, o->M[i * o->n + i]);
-        if (has_position(o, length)) add_logarithm(h, length, false);
+    nh_model *model = h->o;
+    add_roots_of(h, nh_simplify_short(model->dag, determinant(model), 0));
+    for (size_t i = 0; i < model->n; i++) {
+        nh_ex length =
+            nh_powi(model->dag, even_root(model, model->M[i * model->n + i]), -1); /* x'^2/x^2: log x is the length */
+        add_roots_of(h, model->M[i * model->n + i]);
+        if (has_position(model, length)) add_logarithm(h, length, false);
     }
 }
 
@@ -385,11 +386,11 @@ static void potential_terms(harvester *h, nh_ex e, int depth)
 /* The additive terms of the potential, and the derivatives of those that contain an angle in a sine or cosine. */
 static void potentials(harvester *h)
 {
-    nh_model *o = h->o;
-    nh_dag *d = o->dag;
-    nh_ex *zero = nh_alloc_array(o->m + 1, sizeof *zero), *v = nh_alloc_array(o->m + 1, sizeof *v);
-    for (size_t s = 0; s < o->m; s++) v[s] = o->system->coordinate[s].v;
-    potential_terms(h, nh_substitute(d, h->lagrangian, o->m, v, zero), 3);
+    nh_model *model = h->o;
+    nh_dag *d = model->dag;
+    nh_ex *zero = nh_alloc_array(model->m + 1, sizeof *zero), *v = nh_alloc_array(model->m + 1, sizeof *v);
+    for (size_t s = 0; s < model->m; s++) v[s] = model->system->coordinate[s].v;
+    potential_terms(h, nh_substitute(d, h->lagrangian, model->m, v, zero), 3);
     nh_free(v);
     nh_free(zero);
 }
@@ -418,19 +419,19 @@ static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)
 
 static void shapes(harvester *h)
 {
-    nh_model *o = h->o;
+    nh_model *model = h->o;
     /* only angles that occur in the equations of motion: the pencil finds the harmonics of cyclic ones */
     h->out->waves = 0;
-    for (size_t s = 0; s < o->m; s++) {
-        nh_ex q = o->system->coordinate[s].q;
+    for (size_t s = 0; s < model->m; s++) {
+        nh_ex q = model->system->coordinate[s].q;
         bool plain = false, any = false;
-        for (size_t i = 0; i < o->n; i++) {
-            any |= nh_depends(o->dag, o->a[i], q);
-            plain |= any && occurs_plainly(h, o->a[i], q);
+        for (size_t i = 0; i < model->n; i++) {
+            any |= nh_depends(model->dag, model->a[i], q);
+            plain |= any && occurs_plainly(h, model->a[i], q);
         }
         if (any) h->out->shape[h->out->shapes++] = q;
         if (plain) h->out->length[h->out->lengths++] = q;
-        bool wave = o->system->coordinate[s].type == NH_ANGLE || is_in(h->all_waves, h->all_wave, q);
+        bool wave = model->system->coordinate[s].type == NH_ANGLE || is_in(h->all_waves, h->all_wave, q);
         if (wave && any) h->out->wave[h->out->waves++] = q;
     }
 }
@@ -442,12 +443,12 @@ static nh_ex *take(const harvester *h)
     return nh_arena_alloc(h->o->arena, (h->most + h->o->m + h->o->n + 1) * sizeof(nh_ex));
 }
 
-nh_dictionary nh_dictionary_of(nh_model *o)
+nh_dictionary nh_dictionary_of(nh_model *model)
 {
-    harvester h = {.o = o,
-                   .lagrangian = nh_total_derivative_removed(o),
-                   .most = larger(least_entries, entries_each * o->m),
-                   .most_seen = larger(least_seen, seen_each * o->m)};
+    harvester h = {.o = model,
+                   .lagrangian = nh_total_derivative_removed(model),
+                   .most = larger(least_entries, entries_each * model->m),
+                   .most_seen = larger(least_seen, seen_each * model->m)};
     nh_dictionary out = {.velocity = take(&h),
                          .form = take(&h),
                          .atom = take(&h),
@@ -461,22 +462,23 @@ nh_dictionary nh_dictionary_of(nh_model *o)
                          .shape = take(&h)};
     h.out = &out;
     h.seen = nh_alloc_array(h.most_seen, sizeof *h.seen);
-    h.all_wave = nh_alloc_array(o->m + 1, sizeof *h.all_wave);
-    for (size_t i = 0; i < o->n; i++) out.velocity[out.velocities++] = o->chart->w[i];
-    for (size_t s = 0; s < o->m; s++) out.position[out.positions++] = o->system->coordinate[s].q;
+    h.all_wave = nh_alloc_array(model->m + 1, sizeof *h.all_wave);
+    for (size_t i = 0; i < model->n; i++) out.velocity[out.velocities++] = model->chart->w[i];
+    for (size_t s = 0; s < model->m; s++) out.position[out.positions++] = model->system->coordinate[s].q;
     h.integrate = true;
-    for (size_t s = 0; s < o->m && o->system->has_forces; s++) walk(&h, o->system->force[s]);
-    for (size_t a = 0; a < o->k; a++) walk(&h, nh_chart_constraint(o->chart, a));
+    for (size_t s = 0; s < model->m && model->system->has_forces; s++) walk(&h, model->system->force[s]);
+    for (size_t a = 0; a < model->k; a++) walk(&h, nh_chart_constraint(model->chart, a));
     h.integrate = false;
     walk(&h, h.lagrangian);
     /* velocities of variable masses: the integral of 1/M */
-    for (size_t i = 0; i < o->n; i++) add_logarithm(&h, o->M[i * o->n + i], true);
-    for (size_t s = 0; s < o->m; s++) walk(&h, o->rho[s]);
-    for (size_t s = 0; s < o->m; s++)
-        if (!is_in(out.velocities, out.velocity, o->rho[s])) add(&h, &out.velocities, out.velocity, o->rho[s]);
-    for (size_t s = 0; s < o->m; s++) add_momentum(&h, nh_diff(o->dag, h.lagrangian, o->system->coordinate[s].v));
+    for (size_t i = 0; i < model->n; i++) add_logarithm(&h, model->M[i * model->n + i], true);
+    for (size_t s = 0; s < model->m; s++) walk(&h, model->rho[s]);
+    for (size_t s = 0; s < model->m; s++)
+        if (!is_in(out.velocities, out.velocity, model->rho[s])) add(&h, &out.velocities, out.velocity, model->rho[s]);
+    for (size_t s = 0; s < model->m; s++)
+        add_momentum(&h, nh_diff(model->dag, h.lagrangian, model->system->coordinate[s].v));
     nh_ex place[NH_MOST_PLACES];
-    size_t places = nh_places_of(o, place);
+    size_t places = nh_places_of(model, place);
     for (size_t i = 0; i < places; i++) add(&h, &out.places, out.place, place[i]);
     potentials(&h);
     frame(&h);

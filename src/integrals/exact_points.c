@@ -9,10 +9,10 @@
 
 /* Solves for the implicit velocities to the ball's precision: the chord iteration u := u - J^-1 f(u) with J^-1 from
  * doubles gains about 15 digits a step. */
-static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
+static void refine_implicit(const nh_model *model, nh_ball *ball, const double *z)
 {
-    nh_dag *d = o->dag;
-    const nh_chart *c = o->chart;
+    nh_dag *d = model->dag;
+    const nh_chart *c = model->chart;
     size_t k = c->implicit;
     double *out = nh_alloc_array(k + k * k, sizeof *out), *inverse = nh_alloc_array(k * k, sizeof *inverse);
     nh_ex *fresh = nh_alloc_array(k, sizeof *fresh), *next = nh_alloc_array(k, sizeof *next);
@@ -27,7 +27,7 @@ static void refine_implicit(const nh_model *o, nh_ball *ball, const double *z)
         for (size_t j = 0; j < k; j++) {
             nh_ex entry = nh_symbol_fresh(d, "J");
             nh_ball_set_double(ball, entry, inverse[i + j * k]);
-            next[i] = nh_sub(d, next[i], nh_mul(d, entry, nh_model_values(o, c->residual[j])));
+            next[i] = nh_sub(d, next[i], nh_mul(d, entry, nh_model_values(model, c->residual[j])));
         }
     }
     for (int step = 0; step < 3 + nh_ball_bits(ball) / 40 && regular; step++) {
@@ -60,40 +60,41 @@ static double set_near(nh_ball *ball, nh_ex symbol, double x, double span)
 }
 
 /* Solves for the implicit velocities; the explicit symbols are set. */
-static bool complete(const nh_model *o, nh_ball *ball, double *z)
+static bool complete(const nh_model *model, nh_ball *ball, double *z)
 {
-    bool usable = nh_chart_complete(o->chart, z);
-    for (size_t j = o->width - o->chart->implicit; j < o->width; j++)
-        nh_ball_set_double(ball, o->chart->symbol[j], z[j]);
-    if (usable && o->chart->implicit) refine_implicit(o, ball, z);
+    bool usable = nh_chart_complete(model->chart, z);
+    for (size_t j = model->width - model->chart->implicit; j < model->width; j++)
+        nh_ball_set_double(ball, model->chart->symbol[j], z[j]);
+    if (usable && model->chart->implicit) refine_implicit(model, ball, z);
     return usable;
 }
 
-bool nh_exact_point(const nh_model *o, nh_ball *ball, uint64_t *state)
+bool nh_exact_point(const nh_model *model, nh_ball *ball, uint64_t *state)
 {
-    double *z = nh_alloc_array(o->width, sizeof *z);
-    size_t explicit_width = o->width - o->chart->implicit;
-    for (size_t j = 0; j < o->width; j++) {
-        double span = o->chart->high[j] - o->chart->low[j];
-        z[j] = o->chart->low[j] + span * nh_random(state);
-        if (j < explicit_width) z[j] = set_near(ball, o->chart->symbol[j], z[j], span);
+    double *z = nh_alloc_array(model->width, sizeof *z);
+    size_t explicit_width = model->width - model->chart->implicit;
+    for (size_t j = 0; j < model->width; j++) {
+        double span = model->chart->high[j] - model->chart->low[j];
+        z[j] = model->chart->low[j] + span * nh_random(state);
+        if (j < explicit_width) z[j] = set_near(ball, model->chart->symbol[j], z[j], span);
     }
-    bool usable = complete(o, ball, z);
+    bool usable = complete(model, ball, z);
     nh_free(z);
     return usable;
 }
 
-bool nh_exact_at(const nh_model *o, nh_ball *ball, double *z)
+bool nh_exact_at(const nh_model *model, nh_ball *ball, double *z)
 {
-    for (size_t j = 0; j < o->width - o->chart->implicit; j++) nh_ball_set_double(ball, o->chart->symbol[j], z[j]);
-    return complete(o, ball, z);
+    for (size_t j = 0; j < model->width - model->chart->implicit; j++)
+        nh_ball_set_double(ball, model->chart->symbol[j], z[j]);
+    return complete(model, ball, z);
 }
 
-void nh_exact_parameters(const nh_model *o, nh_ball *ball)
+void nh_exact_parameters(const nh_model *model, nh_ball *ball)
 {
-    for (size_t i = 0; i < o->system->parameters; i++) {
-        nh_num value = nh_num_decimal(o->parameter_value[i]);
-        if (nh_num_short(value)) nh_ball_set_ratio(ball, o->parameter[i], value.p, value.q);
-        else nh_ball_set_double(ball, o->parameter[i], o->parameter_value[i]);
+    for (size_t i = 0; i < model->system->parameters; i++) {
+        nh_num value = nh_num_decimal(model->parameter_value[i]);
+        if (nh_num_short(value)) nh_ball_set_ratio(ball, model->parameter[i], value.p, value.q);
+        else nh_ball_set_double(ball, model->parameter[i], model->parameter_value[i]);
     }
 }

@@ -15,67 +15,73 @@ static const double same = 1e-6;
 
 /* ---- values ---- */
 
-bool nh_fixed_has(const nh_model *o, const nh_ex *fixed, size_t i) { return fixed && fixed[i] != o->parameter[i]; }
-
-static nh_ex value_of(const nh_model *o, size_t i) { return nh_number(o->dag, nh_num_decimal(o->parameter_value[i])); }
-
-nh_ex nh_fixed_values(const nh_model *o, const nh_ex *fixed, nh_ex e)
+bool nh_fixed_has(const nh_model *model, const nh_ex *fixed, size_t i)
 {
-    size_t n = 0, all = o->system->parameters;
+    return fixed && fixed[i] != model->parameter[i];
+}
+
+static nh_ex value_of(const nh_model *model, size_t i)
+{
+    return nh_number(model->dag, nh_num_decimal(model->parameter_value[i]));
+}
+
+nh_ex nh_fixed_values(const nh_model *model, const nh_ex *fixed, nh_ex e)
+{
+    size_t n = 0, all = model->system->parameters;
     nh_ex *from = nh_alloc_array(2 * all + 1, sizeof *from), *to = from + all;
     for (size_t i = 0; i < all; i++) {
-        if (fixed && !nh_fixed_has(o, fixed, i)) continue;
-        from[n] = o->parameter[i];
-        to[n++] = fixed ? fixed[i] : value_of(o, i);
+        if (fixed && !nh_fixed_has(model, fixed, i)) continue;
+        from[n] = model->parameter[i];
+        to[n++] = fixed ? fixed[i] : value_of(model, i);
     }
-    if (n) e = nh_substitute(o->dag, e, n, from, to);
+    if (n) e = nh_substitute(model->dag, e, n, from, to);
     nh_free(from);
     return e;
 }
 
-static nh_ex *none_fixed(const nh_model *o)
+static nh_ex *none_fixed(const nh_model *model)
 {
-    size_t all = o->system->parameters;
-    nh_ex *fixed = nh_arena_alloc(o->arena, (all + 1) * sizeof *fixed);
-    memcpy(fixed, o->parameter, all * sizeof *fixed);
+    size_t all = model->system->parameters;
+    nh_ex *fixed = nh_arena_alloc(model->arena, (all + 1) * sizeof *fixed);
+    memcpy(fixed, model->parameter, all * sizeof *fixed);
     return fixed;
 }
 
-const nh_ex *nh_fixed_every(const nh_model *o)
+const nh_ex *nh_fixed_every(const nh_model *model)
 {
-    nh_ex *fixed = none_fixed(o);
-    for (size_t i = 0; i < o->system->parameters; i++) fixed[i] = value_of(o, i);
+    nh_ex *fixed = none_fixed(model);
+    for (size_t i = 0; i < model->system->parameters; i++) fixed[i] = value_of(model, i);
     return fixed;
 }
 
-const nh_ex *nh_fixed_those(const nh_model *o, const bool *which)
+const nh_ex *nh_fixed_those(const nh_model *model, const bool *which)
 {
-    nh_ex *fixed = none_fixed(o);
-    for (size_t i = 0; i < o->system->parameters; i++)
-        if (which[i]) fixed[i] = value_of(o, i);
+    nh_ex *fixed = none_fixed(model);
+    for (size_t i = 0; i < model->system->parameters; i++)
+        if (which[i]) fixed[i] = value_of(model, i);
     return fixed;
 }
 
-bool nh_fixed_all(const nh_model *o, const nh_ex *fixed)
+bool nh_fixed_all(const nh_model *model, const nh_ex *fixed)
 {
-    for (size_t i = 0; i < o->system->parameters && fixed; i++)
-        if (nh_kind_of(o->dag, fixed[i]) != NH_NUMBER) return false;
+    for (size_t i = 0; i < model->system->parameters && fixed; i++)
+        if (nh_kind_of(model->dag, fixed[i]) != NH_NUMBER) return false;
     return true;
 }
 
-const char *nh_fixed_text(const nh_model *o, const nh_ex *fixed)
+const char *nh_fixed_text(const nh_model *model, const nh_ex *fixed)
 {
     nh_text text;
     nh_text_init(&text);
-    for (size_t i = 0; i < o->system->parameters; i++) {
-        if (!nh_fixed_has(o, fixed, i)) continue;
-        nh_text_addf(&text, "%s%s = ", nh_text_string(&text)[0] ? ", " : "", o->system->parameter[i].name);
-        char *related = nh_kind_of(o->dag, fixed[i]) == NH_NUMBER ? NULL : nh_print_string(o->dag, fixed[i]);
+    for (size_t i = 0; i < model->system->parameters; i++) {
+        if (!nh_fixed_has(model, fixed, i)) continue;
+        nh_text_addf(&text, "%s%s = ", nh_text_string(&text)[0] ? ", " : "", model->system->parameter[i].name);
+        char *related = nh_kind_of(model->dag, fixed[i]) == NH_NUMBER ? NULL : nh_print_string(model->dag, fixed[i]);
         if (related) nh_text_addf(&text, "%s", related);
-        else nh_text_addf(&text, "%.15g", o->parameter_value[i]);
+        else nh_text_addf(&text, "%.15g", model->parameter_value[i]);
         nh_free(related);
     }
-    const char *out = nh_arena_strdup(o->arena, nh_text_string(&text));
+    const char *out = nh_arena_strdup(model->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
 }
@@ -244,10 +250,10 @@ static size_t propose_ties(const nh_model *o, size_t n, const size_t *fixed, con
 
 /* ---- one relation ---- */
 
-bool nh_fixed_is_like(const nh_model *o, size_t n, const nh_ex *exact, const double *like)
+bool nh_fixed_is_like(const nh_model *model, size_t n, const nh_ex *exact, const double *like)
 {
     double *value = nh_alloc_array(n + 1, sizeof *value), largest = 0, factor = 0, worst = 0;
-    nh_tape_constants(o->dag, n, exact, o->system->parameters, o->parameter, o->parameter_value, value);
+    nh_tape_constants(model->dag, n, exact, model->system->parameters, model->parameter, model->parameter_value, value);
     for (size_t j = 0; j < n; j++)
         if (fabs(like[j]) > largest) {
             largest = fabs(like[j]);
@@ -286,99 +292,100 @@ static nh_relation_verdict relation(const problem *p, const nh_ex *fixed, nh_ex 
 /* ---- which parameters ---- */
 
 /* How special a value is: short values are set free late, and values that the user set last. */
-static double special(const nh_system *s, size_t i)
+static double special(const nh_system *system, size_t i)
 {
-    nh_num x = nh_num_decimal(s->parameter[i].value);
+    nh_num x = nh_num_decimal(system->parameter[i].value);
     double length = nh_num_short(x) ? log(1 + fabs((double)x.p)) + log((double)x.q) : 100;
-    return (s->parameter[i].set ? 1000 : 0) - length;
+    return (system->parameter[i].set ? 1000 : 0) - length;
 }
 
-static void set_order(const nh_system *s, size_t *order)
+static void set_order(const nh_system *system, size_t *order)
 {
-    for (size_t i = 0; i < s->parameters; i++) {
+    for (size_t i = 0; i < system->parameters; i++) {
         size_t at = i;
-        for (; at > 0 && special(s, order[at - 1]) > special(s, i); at--) order[at] = order[at - 1];
+        for (; at > 0 && special(system, order[at - 1]) > special(system, i); at--) order[at] = order[at - 1];
         order[at] = i;
     }
 }
 
-static bool occurs(const nh_model *o, size_t n, const nh_ex *e, nh_ex symbol)
+static bool occurs(const nh_model *model, size_t n, const nh_ex *e, nh_ex symbol)
 {
     for (size_t j = 0; j < n; j++)
-        if (nh_depends(o->dag, e[j], symbol)) return true;
+        if (nh_depends(model->dag, e[j], symbol)) return true;
     return false;
 }
 
 /* Sets one fixed parameter free after the other. */
-static void set_free(const nh_model *o, nh_ex *fixed, nh_fixed_test *holds, void *context)
+static void set_free(const nh_model *model, nh_ex *fixed, nh_fixed_test *holds, void *context)
 {
-    size_t all = o->system->parameters, *order = nh_alloc_array(all + 1, sizeof *order);
-    set_order(o->system, order);
+    size_t all = model->system->parameters, *order = nh_alloc_array(all + 1, sizeof *order);
+    set_order(model->system, order);
     for (size_t k = 0; k < all; k++) {
         size_t i = order[k];
-        if (nh_kind_of(o->dag, fixed[i]) != NH_NUMBER) continue;
+        if (nh_kind_of(model->dag, fixed[i]) != NH_NUMBER) continue;
         nh_ex value = fixed[i];
-        fixed[i] = o->parameter[i];
+        fixed[i] = model->parameter[i];
         if (!holds(fixed, context)) fixed[i] = value;
     }
     nh_free(order);
 }
 
 /* Several parameters that must be fixed may only have to be related. */
-static void with_ties(const nh_model *o, nh_ex *fixed, nh_fixed_test *holds, void *context)
+static void with_ties(const nh_model *model, nh_ex *fixed, nh_fixed_test *holds, void *context)
 {
-    size_t all = o->system->parameters, n = 0, *which = nh_alloc_array(all + 1, sizeof *which);
+    size_t all = model->system->parameters, n = 0, *which = nh_alloc_array(all + 1, sizeof *which);
     const nh_ex *tie[most_ties];
     for (size_t i = 0; i < all; i++)
-        if (nh_fixed_has(o, fixed, i)) which[n++] = i;
-    size_t ties = propose_ties(o, n, which, tie);
+        if (nh_fixed_has(model, fixed, i)) which[n++] = i;
+    size_t ties = propose_ties(model, n, which, tie);
     for (size_t k = 0; k < ties; k++) {
         if (!holds(tie[k], context)) continue;
         memcpy(fixed, tie[k], all * sizeof *fixed);
-        set_free(o, fixed, holds, context);
+        set_free(model, fixed, holds, context);
         break;
     }
     nh_free(which);
 }
 
-static const nh_ex *least(const nh_model *o, size_t n, const nh_ex *occurring, bool ties, nh_fixed_test *holds,
+static const nh_ex *least(const nh_model *model, size_t n, const nh_ex *occurring, bool ties, nh_fixed_test *holds,
                           void *context)
 {
-    nh_ex *fixed = none_fixed(o);
-    for (size_t k = 0; k < o->system->parameters; k++)
-        if (occurs(o, n, occurring, o->parameter[k])) fixed[k] = value_of(o, k);
-    set_free(o, fixed, holds, context);
-    if (ties) with_ties(o, fixed, holds, context);
+    nh_ex *fixed = none_fixed(model);
+    for (size_t k = 0; k < model->system->parameters; k++)
+        if (occurs(model, n, occurring, model->parameter[k])) fixed[k] = value_of(model, k);
+    set_free(model, fixed, holds, context);
+    if (ties) with_ties(model, fixed, holds, context);
     return fixed;
 }
 
-const nh_ex *nh_fixed_least(const nh_model *o, size_t n, const nh_ex *occurring, nh_fixed_test *holds, void *context)
+const nh_ex *nh_fixed_least(const nh_model *model, size_t n, const nh_ex *occurring, nh_fixed_test *holds,
+                            void *context)
 {
-    return least(o, n, occurring, true, holds, context);
+    return least(model, n, occurring, true, holds, context);
 }
 
 /* Where the lists disagree, or a replacement contains a parameter that is replaced itself, the parameters concerned get
  * their values. */
-const nh_ex *nh_fixed_both(const nh_model *o, const nh_ex *a, const nh_ex *b)
+const nh_ex *nh_fixed_both(const nh_model *model, const nh_ex *a, const nh_ex *b)
 {
     if (!a || !b) return a ? a : b;
-    size_t all = o->system->parameters;
-    nh_ex *both = none_fixed(o);
+    size_t all = model->system->parameters;
+    nh_ex *both = none_fixed(model);
     bool mixed = false;
     for (size_t i = 0; i < all; i++) {
-        bool in_a = nh_fixed_has(o, a, i), in_b = nh_fixed_has(o, b, i);
+        bool in_a = nh_fixed_has(model, a, i), in_b = nh_fixed_has(model, b, i);
         both[i] = in_a ? a[i] : b[i];
         mixed = mixed || (in_a && in_b && a[i] != b[i]);
     }
     for (size_t i = 0; i < all; i++)
         for (size_t j = 0; j < all; j++)
-            mixed = mixed || (nh_fixed_has(o, both, j) && nh_fixed_has(o, both, i) &&
-                              nh_depends(o->dag, both[i], o->parameter[j]));
+            mixed = mixed || (nh_fixed_has(model, both, j) && nh_fixed_has(model, both, i) &&
+                              nh_depends(model->dag, both[i], model->parameter[j]));
     for (size_t i = 0; i < all && mixed; i++)
         for (size_t j = 0; j < all; j++)
-            if (nh_fixed_has(o, a, j) || nh_fixed_has(o, b, j) || nh_depends(o->dag, a[i], o->parameter[j]) ||
-                nh_depends(o->dag, b[i], o->parameter[j]))
-                both[j] = nh_fixed_has(o, a, i) || nh_fixed_has(o, b, i) ? value_of(o, j) : both[j];
+            if (nh_fixed_has(model, a, j) || nh_fixed_has(model, b, j) ||
+                nh_depends(model->dag, a[i], model->parameter[j]) || nh_depends(model->dag, b[i], model->parameter[j]))
+                both[j] = nh_fixed_has(model, a, i) || nh_fixed_has(model, b, i) ? value_of(model, j) : both[j];
     return both;
 }
 
@@ -390,43 +397,43 @@ static bool is_related(const nh_ex *fixed, void *context)
     return true;
 }
 
-bool nh_fixed_relation_of_symbols(const nh_model *o, size_t n, const nh_ex *e, const double *like,
+bool nh_fixed_relation_of_symbols(const nh_model *model, size_t n, const nh_ex *e, const double *like,
                                   const nh_options *options, nh_ex *coefficient)
 {
-    nh_ex *work = nh_alloc_array(2 * n + o->system->parameters + 1, sizeof *work);
-    problem p = {o, n, (size_t)options->proof_terms, e, like, work, work + n, work + 2 * n, coefficient};
+    nh_ex *work = nh_alloc_array(2 * n + model->system->parameters + 1, sizeof *work);
+    problem p = {model, n, (size_t)options->proof_terms, e, like, work, work + n, work + 2 * n, coefficient};
     bool found = relation(&p, NULL, coefficient) == NH_RELATION_UNIQUE;
     nh_free(work);
     return found;
 }
 
-static nh_fixed find(const nh_model *o, size_t n, const nh_ex *e, const double *like, const nh_options *options,
+static nh_fixed find(const nh_model *model, size_t n, const nh_ex *e, const double *like, const nh_options *options,
                      bool ties, nh_ex *coefficient)
 {
-    size_t all = o->system->parameters;
+    size_t all = model->system->parameters;
     nh_ex *work = nh_alloc_array(2 * n + all + 1, sizeof *work);
-    problem p = {o, n, (size_t)options->proof_terms, e, like, work, work + n, work + 2 * n, coefficient};
+    problem p = {model, n, (size_t)options->proof_terms, e, like, work, work + n, work + 2 * n, coefficient};
     nh_fixed out = {0};
     nh_relation_verdict symbols = relation(&p, NULL, coefficient);
     out.found = out.all_parameters = symbols == NH_RELATION_UNIQUE;
     if (!out.found) {
-        const nh_ex *fixed = nh_fixed_every(o);
+        const nh_ex *fixed = nh_fixed_every(model);
         out.found = relation(&p, fixed, coefficient) == NH_RELATION_UNIQUE;
         out.too_large = symbols == NH_RELATION_TOO_LARGE;
-        out.fixed = out.found && !out.too_large ? least(o, n, e, ties, is_related, &p) : fixed;
+        out.fixed = out.found && !out.too_large ? least(model, n, e, ties, is_related, &p) : fixed;
     }
     nh_free(work);
     return out;
 }
 
-nh_fixed nh_fixed_relation(const nh_model *o, size_t n, const nh_ex *e, const double *like, const nh_options *options,
-                           nh_ex *coefficient)
+nh_fixed nh_fixed_relation(const nh_model *model, size_t n, const nh_ex *e, const double *like,
+                           const nh_options *options, nh_ex *coefficient)
 {
-    return find(o, n, e, like, options, true, coefficient);
+    return find(model, n, e, like, options, true, coefficient);
 }
 
-nh_fixed nh_fixed_relation_by_values(const nh_model *o, size_t n, const nh_ex *e, const double *like,
+nh_fixed nh_fixed_relation_by_values(const nh_model *model, size_t n, const nh_ex *e, const double *like,
                                      const nh_options *options, nh_ex *coefficient)
 {
-    return find(o, n, e, like, options, false, coefficient);
+    return find(model, n, e, like, options, false, coefficient);
 }

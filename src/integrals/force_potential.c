@@ -22,10 +22,10 @@ typedef struct {
     nh_ex value[most_signs]; /* symbols: its value on either side */
 } problem;
 
-static bool has_velocities(const nh_model *o, nh_ex e)
+static bool has_velocities(const nh_model *model, nh_ex e)
 {
-    for (size_t s = 0; s < o->m; s++)
-        if (nh_depends(o->dag, e, o->system->coordinate[s].v)) return true;
+    for (size_t s = 0; s < model->m; s++)
+        if (nh_depends(model->dag, e, model->system->coordinate[s].v)) return true;
     return false;
 }
 
@@ -125,24 +125,24 @@ static nh_ex potential(problem *p)
     return U ? U : integrate(p, -1);
 }
 
-nh_ex nh_force_potential(const nh_model *o, const nh_points *points, size_t max_terms)
+nh_ex nh_force_potential(const nh_model *model, const nh_points *points, size_t max_terms)
 {
-    if (!o->system->has_forces) return 0;
-    problem p = {.o = o, .points = points, .max_terms = max_terms};
-    nh_ex *force = nh_alloc_array(o->m + 1, sizeof *force);
+    if (!model->system->has_forces) return 0;
+    problem p = {.o = model, .points = points, .max_terms = max_terms};
+    nh_ex *force = nh_alloc_array(model->m + 1, sizeof *force);
     p.force = force;
     bool some = false, position = true;
-    for (size_t s = 0; s < o->m && position; s++) {
-        force[s] = o->system->force[s];
+    for (size_t s = 0; s < model->m && position; s++) {
+        force[s] = model->system->force[s];
         position = fix_signs(&p, &force[s]);
-        some |= !nh_is_zero(o->dag, force[s]);
+        some |= !nh_is_zero(model->dag, force[s]);
     }
     nh_ex U = some && position ? potential(&p) : 0;
     nh_free(force);
     return U;
 }
 
-nh_ex nh_force_potential_of(const nh_model *o, const nh_points *points, size_t max_terms, const nh_ex *form)
+nh_ex nh_force_potential_of(const nh_model *model, const nh_points *points, size_t max_terms, const nh_ex *form)
 {
-    return potential(&(problem){.o = o, .points = points, .max_terms = max_terms, .force = form});
+    return potential(&(problem){.o = model, .points = points, .max_terms = max_terms, .force = form});
 }

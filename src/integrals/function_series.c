@@ -47,17 +47,18 @@ static bool point(void *context, nh_ball *ball, double s, size_t sample)
     return nh_exact_point(&x->thin, ball, &state);
 }
 
-nh_series_search *nh_series_open(const nh_model *o, nh_ex variable, size_t words, const nh_ex *word,
+nh_series_search *nh_series_open(const nh_model *model, nh_ex variable, size_t words, const nh_ex *word,
                                  const nh_options *options)
 {
     nh_series_search *x = nh_alloc(sizeof *x);
-    *x = (nh_series_search){.o = o, .options = options, .variable = variable, .chart = *o->chart, .thin = *o};
+    *x = (nh_series_search){
+        .o = model, .options = options, .variable = variable, .chart = *model->chart, .thin = *model};
     x->thin.chart = &x->chart;
-    x->chart.low = x->low = nh_alloc_array(o->width, sizeof *x->low);
-    x->chart.high = x->high = nh_alloc_array(o->width, sizeof *x->high);
-    memcpy(x->low, o->chart->low, o->width * sizeof *x->low);
-    memcpy(x->high, o->chart->high, o->width * sizeof *x->high);
-    while (x->at < o->width && o->chart->symbol[x->at] != variable) x->at++;
+    x->chart.low = x->low = nh_alloc_array(model->width, sizeof *x->low);
+    x->chart.high = x->high = nh_alloc_array(model->width, sizeof *x->high);
+    memcpy(x->low, model->chart->low, model->width * sizeof *x->low);
+    memcpy(x->high, model->chart->high, model->width * sizeof *x->high);
+    while (x->at < model->width && model->chart->symbol[x->at] != variable) x->at++;
     x->begin = x->low[x->at];
     x->end = x->high[x->at];
     x->middle = (x->begin + x->end) / 2;
@@ -66,11 +67,11 @@ nh_series_search *nh_series_open(const nh_model *o, nh_ex variable, size_t words
     x->slope = nh_alloc_array(words + 1, sizeof *x->slope);
     memcpy(x->word, word, words * sizeof *word);
     for (size_t i = 0; i < words; i++) {
-        x->value[i] = nh_model_values(o, word[i]);
-        x->slope[i] = nh_model_values(o, nh_model_gamma(o, word[i]));
+        x->value[i] = nh_model_values(model, word[i]);
+        x->slope[i] = nh_model_values(model, nh_model_gamma(model, word[i]));
     }
-    x->variable_slope = nh_model_values(o, nh_model_gamma(o, variable));
-    x->ball = nh_ball_create(o->dag, nh_ball_ode_bits(options->digits));
+    x->variable_slope = nh_model_values(model, nh_model_gamma(model, variable));
+    x->ball = nh_ball_create(model->dag, nh_ball_ode_bits(options->digits));
     nh_ball_ode_problem problem = {.words = words,
                                    .value = x->value,
                                    .slope = x->slope,

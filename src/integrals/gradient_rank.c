@@ -10,30 +10,30 @@
 enum { bits = 320, wanted = 3, most_tries = 12, digits_of_nothing = 30, own_seed = 909 };
 
 /* The rank does not depend on the scale, but the remaining parts do: half widths of the sampling box. */
-static nh_ex *gradients(const nh_model *o, size_t n, const nh_ex *phi, size_t width, double *scale, bool *exact)
+static nh_ex *gradients(const nh_model *model, size_t n, const nh_ex *phi, size_t width, double *scale, bool *exact)
 {
     nh_ex *e = nh_alloc_array(n * width + 1, sizeof *e);
     for (size_t k = 0; k < n; k++) {
-        *exact = *exact && nh_is_exact(o->dag, phi[k]);
-        for (size_t j = 0; j < width; j++) e[k * width + j] = nh_diff(o->dag, phi[k], o->chart->symbol[j]);
+        *exact = *exact && nh_is_exact(model->dag, phi[k]);
+        for (size_t j = 0; j < width; j++) e[k * width + j] = nh_diff(model->dag, phi[k], model->chart->symbol[j]);
     }
-    for (size_t j = 0; j < width; j++) scale[j] = (o->chart->high[j] - o->chart->low[j]) / 2;
+    for (size_t j = 0; j < width; j++) scale[j] = (model->chart->high[j] - model->chart->low[j]) / 2;
     return e;
 }
 
-nh_rank nh_rank_decide(const nh_model *o, size_t n, const nh_ex *phi, double doubt)
+nh_rank nh_rank_decide(const nh_model *model, size_t n, const nh_ex *phi, double doubt)
 {
-    size_t width = 1 + o->m + o->n, points = 0;
+    size_t width = 1 + model->m + model->n, points = 0;
     double *scale = nh_alloc_array(width, sizeof *scale), digits = INFINITY;
     uint64_t state = own_seed;
     bool exact = true;
-    nh_ex *e = gradients(o, n + 1, phi, width, scale, &exact);
-    nh_ball *ball = nh_ball_create(o->dag, bits);
+    nh_ex *e = gradients(model, n + 1, phi, width, scale, &exact);
+    nh_ball *ball = nh_ball_create(model->dag, bits);
     nh_rank out = {.answer = NH_RANK_UNDECIDED};
-    nh_exact_parameters(o, ball);
+    nh_exact_parameters(model, ball);
     for (int tries = 0; tries < most_tries && points < wanted && out.answer != NH_RANK_GROWS; tries++) {
         double lower, upper;
-        if (!nh_exact_point(o, ball, &state) || !nh_ball_rank_left(ball, n + 1, width, e, scale, &lower, &upper))
+        if (!nh_exact_point(model, ball, &state) || !nh_ball_rank_left(ball, n + 1, width, e, scale, &lower, &upper))
             continue;
         points++;
         digits = fmin(digits, -upper);

@@ -48,16 +48,16 @@ static nh_ex size_of(nh_dag *d, nh_ex e, int depth)
 
 /* Gradients d phi / d z_j over (t, q, w), times the half width of the sampling box in z_j, so that units do not matter;
  * implicit velocities are followed by the rules of diff.h. After them the sizes of what each phi is summed from. */
-static double *gradients(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, size_t width)
+static double *gradients(const nh_model *model, const nh_points *points, size_t n, const nh_ex *phi, size_t width)
 {
     nh_ex *e = nh_alloc_array(n * (width + 1) + 1, sizeof *e);
     for (size_t k = 0; k < n; k++)
-        for (size_t j = 0; j < width; j++) e[k * width + j] = nh_diff(o->dag, phi[k], o->chart->symbol[j]);
-    for (size_t k = 0; k < n; k++) e[n * width + k] = size_of(o->dag, phi[k], levels);
+        for (size_t j = 0; j < width; j++) e[k * width + j] = nh_diff(model->dag, phi[k], model->chart->symbol[j]);
+    for (size_t k = 0; k < n; k++) e[n * width + k] = size_of(model->dag, phi[k], levels);
     double *value = nh_alloc_array(n * (width + 1) * points->count + 1, sizeof *value);
-    nh_points_evaluate(points, o, n * (width + 1), e, value);
+    nh_points_evaluate(points, model, n * (width + 1), e, value);
     for (size_t k = 0; k < n * width; k++) {
-        double span = (o->chart->high[k % width] - o->chart->low[k % width]) / 2;
+        double span = (model->chart->high[k % width] - model->chart->low[k % width]) / 2;
         for (size_t p = 0; p < points->count; p++) value[k * points->count + p] *= span;
     }
     nh_free(e);
@@ -106,34 +106,35 @@ static void accept(frame *f, const double *rest)
 
 /* Is what is left below `doubt`, but more than rounding leaves, of currents without fitted numbers?  Where a light body
  * moves with a heavy one, energy and momentum differ by little. */
-static bool is_small_only(const nh_model *o, size_t k, const nh_ex *phi, const bool *exact, const nh_independence *kind,
-                          double left)
+static bool is_small_only(const nh_model *model, size_t k, const nh_ex *phi, const bool *exact,
+                          const nh_independence *kind, double left)
 {
     static const double rounding = 1e-14;
     bool small = exact && left > rounding;
     for (size_t i = 0; i <= k && small; i++)
-        if (i == k || kind[i] == NH_INDEPENDENT) small = exact[i] && nh_is_exact(o->dag, phi[i]);
+        if (i == k || kind[i] == NH_INDEPENDENT) small = exact[i] && nh_is_exact(model->dag, phi[i]);
     return small;
 }
 
 /* Decides about phi[k] against the accepted ones before it in ball arithmetic, where doubles leave it open. */
-static nh_independence decide(const nh_model *o, size_t k, const nh_ex *phi, const nh_independence *kind, double doubt)
+static nh_independence decide(const nh_model *model, size_t k, const nh_ex *phi, const nh_independence *kind,
+                              double doubt)
 {
     nh_ex *list = nh_alloc_array(k + 1, sizeof *list);
     size_t n = 0;
     for (size_t i = 0; i < k; i++)
         if (kind[i] == NH_INDEPENDENT) list[n++] = phi[i];
     list[n] = phi[k];
-    nh_rank rank = nh_rank_decide(o, n, list, doubt);
+    nh_rank rank = nh_rank_decide(model, n, list, doubt);
     nh_free(list);
     return rank.answer == NH_RANK_GROWS ? NH_INDEPENDENT : rank.answer == NH_RANK_STAYS ? NH_DEPENDENT : NH_DOUBTFUL;
 }
 
-void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, const nh_ex *phi, const bool *exact,
+void nh_independence_test(const nh_model *model, const nh_points *points, size_t n, const nh_ex *phi, const bool *exact,
                           double sure, double doubt, nh_independence *out, double *fraction)
 {
-    size_t width = 1 + o->m + o->n, count = points->count;
-    double *g = gradients(o, points, n, phi, width);
+    size_t width = 1 + model->m + model->n, count = points->count;
+    double *g = gradients(model, points, n, phi, width);
     frame f = {.width = width,
                .points = count,
                .basis = nh_alloc_array(count * width * width + 1, sizeof(double)),
@@ -156,8 +157,8 @@ void nh_independence_test(const nh_model *o, const nh_points *points, size_t n, 
                  : m > sure        ? NH_INDEPENDENT
                  : m < doubt       ? NH_DEPENDENT
                                    : NH_DOUBTFUL;
-        if (out[k] == NH_DEPENDENT && is_small_only(o, k, phi, exact, out, m)) out[k] = NH_DOUBTFUL;
-        if (out[k] == NH_DOUBTFUL) out[k] = decide(o, k, phi, out, doubt);
+        if (out[k] == NH_DEPENDENT && is_small_only(model, k, phi, exact, out, m)) out[k] = NH_DOUBTFUL;
+        if (out[k] == NH_DOUBTFUL) out[k] = decide(model, k, phi, out, doubt);
         if (out[k] == NH_INDEPENDENT && f.accepted < width) accept(&f, rest);
     }
     nh_free(left);

@@ -21,20 +21,21 @@ typedef struct {
 /* The relation with these numbers as expressions of the parameters; on success p->named are the terms. */
 static nh_fixed named_relation(problem *p, const nh_lifted *numbers)
 {
-    const nh_model *o = p->o;
+    const nh_model *model = p->o;
     nh_letters *letters = p->letters;
-    nh_unknown_numbers s = {o->dag,         o->system->parameters, o->parameter,   o->parameter_value,
-                            numbers->count, numbers->symbol,       numbers->value, (size_t)p->options->proof_terms};
+    nh_unknown_numbers s = {
+        model->dag,     model->system->parameters, model->parameter, model->parameter_value,
+        numbers->count, numbers->symbol,           numbers->value,   (size_t)p->options->proof_terms};
     nh_fixed none = {0};
-    for (size_t j = 0; j < p->n; j++) p->rate[j] = nh_model_gamma(o, p->lifted[j]);
+    for (size_t j = 0; j < p->n; j++) p->rate[j] = nh_model_gamma(model, p->lifted[j]);
     if (!nh_relation_unknown(&s, p->n, p->rate, p->coefficient, letters->name)) return none;
     letters->count = numbers->count;
     memcpy(letters->value, numbers->value, sizeof letters->value);
     for (size_t j = 0; j < p->n; j++) {
-        p->named[j] = nh_substitute(o->dag, p->lifted[j], numbers->count, numbers->symbol, letters->name);
-        p->rate[j] = nh_model_gamma(o, p->named[j]);
+        p->named[j] = nh_substitute(model->dag, p->lifted[j], numbers->count, numbers->symbol, letters->name);
+        p->rate[j] = nh_model_gamma(model, p->named[j]);
     }
-    return nh_fixed_relation(o, p->n, p->rate, p->coefficient, p->options, p->out);
+    return nh_fixed_relation(model, p->n, p->rate, p->coefficient, p->options, p->out);
 }
 
 /* The terms with symbols for their numbers of this kind; for one of the numbers only, unless `only` is beyond them. */
@@ -69,13 +70,13 @@ static nh_fixed try_kind(problem *p, nh_symbolise_decimals_kind kind)
     return out;
 }
 
-nh_fixed nh_letters_relation(const nh_model *o, size_t n, nh_ex *term, const double *coefficient,
+nh_fixed nh_letters_relation(const nh_model *model, size_t n, nh_ex *term, const double *coefficient,
                              const nh_options *options, nh_ex *out, nh_letters *letters)
 {
     static const nh_symbolise_decimals_kind kind[kinds] = {NH_SYMBOLISE_DECIMALS_ROUGH, NH_SYMBOLISE_DECIMALS_FRACTIONS,
                                                            NH_SYMBOLISE_DECIMALS_ALL};
     nh_ex *work = nh_alloc_array(4 * n + 1, sizeof *work);
-    problem p = {o, options, n, term, coefficient, work, work + n, work + 2 * n, work + 3 * n, letters};
+    problem p = {model, options, n, term, coefficient, work, work + n, work + 2 * n, work + 3 * n, letters};
     nh_fixed found = {0};
     for (size_t i = 0; i < kinds && !found.all_parameters; i++) found = try_kind(&p, kind[i]);
     if (found.all_parameters) {

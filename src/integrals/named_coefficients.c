@@ -51,11 +51,12 @@ typedef struct {
 static double typical_value(void *context, nh_ex e)
 {
     const seeker *x = context;
-    const nh_model *o = x->o;
+    const nh_model *model = x->o;
     size_t at = 0;
-    while (o->chart->symbol[at] != x->s) at++;
-    double middle = 0.52 * o->chart->low[at] + 0.48 * o->chart->high[at], out;
-    nh_tape *tape = nh_tape_create(o->dag, 1, &x->s, 1, &e, o->system->parameters, o->parameter, o->parameter_value);
+    while (model->chart->symbol[at] != x->s) at++;
+    double middle = 0.52 * model->chart->low[at] + 0.48 * model->chart->high[at], out;
+    nh_tape *tape = nh_tape_create(model->dag, 1, &x->s, 1, &e, model->system->parameters, model->parameter,
+                                   model->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     nh_tape_eval(tape, work, &middle, &out);
     nh_tape_work_free(work);
@@ -272,11 +273,11 @@ static void try_pair(seeker *x, size_t count, const nh_ex *list, nh_named_block 
     take_choice(x, &c);
 }
 
-static bool is_position(const nh_model *o, nh_ex symbol)
+static bool is_position(const nh_model *model, nh_ex symbol)
 {
     size_t s = 0;
-    while (s < o->m && symbol != o->system->coordinate[s].q) s++;
-    return s < o->m;
+    while (s < model->m && symbol != model->system->coordinate[s].q) s++;
+    return s < model->m;
 }
 
 /* Pairs of symbols at least one of whose rates contains the other, and none of which is the rate of s. */

@@ -307,16 +307,16 @@ static void read_block(const linear_system *x, size_t order, const size_t *g, nh
     }
 }
 
-size_t nh_named_blocks(const nh_model *o, nh_ex s, size_t words, const nh_ex *word, size_t longest,
+size_t nh_named_blocks(const nh_model *model, nh_ex s, size_t words, const nh_ex *word, size_t longest,
                        nh_named_block out[NH_NAMED_WORDS])
 {
     linear_system *x = nh_alloc(sizeof *x);
     bool seen[most] = {false};
     size_t g[most], count = 0;
-    *x = (linear_system){.o = o,
-                         .d = o->dag,
+    *x = (linear_system){.o = model,
+                         .d = model->dag,
                          .s = s,
-                         .zero = nh_int(o->dag, 0),
+                         .zero = nh_int(model->dag, 0),
                          .longest = longest,
                          .words = words,
                          .word = word,

@@ -15,20 +15,21 @@ struct nh_open_way {
     double *z, *value, *before;
 };
 
-nh_open_way *nh_open_way_create(const nh_model *o)
+nh_open_way *nh_open_way_create(const nh_model *model)
 {
     nh_open_way *w = nh_alloc(sizeof *w);
-    const nh_system *s = o->system;
+    const nh_system *system = model->system;
     nh_ex e[1 + NH_MOST_WALLS];
     nh_walls poles = {0};
-    nh_walls_add_poles(&poles, o->dag, s->lagrangian);
-    for (size_t i = 0; i < s->coordinates && s->has_forces; i++) nh_walls_add_poles(&poles, o->dag, s->force[i]);
-    e[0] = o->Lbar;
-    for (size_t i = 0; i < poles.count; i++) e[1 + i] = nh_model_compose(o, poles.e[i]);
-    *w = (nh_open_way){.o = o, .bases = poles.count, .tape = nh_model_tape(o, 1 + poles.count, e)};
+    nh_walls_add_poles(&poles, model->dag, system->lagrangian);
+    for (size_t i = 0; i < system->coordinates && system->has_forces; i++)
+        nh_walls_add_poles(&poles, model->dag, system->force[i]);
+    e[0] = model->Lbar;
+    for (size_t i = 0; i < poles.count; i++) e[1 + i] = nh_model_compose(model, poles.e[i]);
+    *w = (nh_open_way){.o = model, .bases = poles.count, .tape = nh_model_tape(model, 1 + poles.count, e)};
     w->work = nh_tape_work_create(w->tape);
-    w->z = nh_alloc_array(o->width + 2 * (1 + poles.count), sizeof *w->z);
-    w->value = w->z + o->width;
+    w->z = nh_alloc_array(model->width + 2 * (1 + poles.count), sizeof *w->z);
+    w->value = w->z + model->width;
     w->before = w->value + 1 + poles.count;
     return w;
 }

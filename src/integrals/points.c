@@ -70,32 +70,34 @@ void nh_points_evaluate(const nh_points *points, const nh_model *model, size_t n
 static const double too_fast = 1e8, usual = 1.5;
 
 /* The range of a velocity that the system's author gives, relative to its default range; 0: none is given. */
-static double given_speed(const nh_model *o, nh_ex symbol)
+static double given_speed(const nh_model *model, nh_ex symbol)
 {
-    const nh_system *s = o->system;
+    const nh_system *system = model->system;
     double reach = 0;
-    for (size_t k = 0; k < s->intervals; k++)
-        if (s->interval[k].symbol == symbol) reach = fmax(fabs(s->interval[k].low), fabs(s->interval[k].high)) / usual;
+    for (size_t k = 0; k < system->intervals; k++)
+        if (system->interval[k].symbol == symbol)
+            reach = fmax(fabs(system->interval[k].low), fabs(system->interval[k].high)) / usual;
     return isfinite(reach) ? reach : 0;
 }
 
 /* The units of velocities: speed[s] for v^s, then for w_i; the returned rate is that of their changes per unit of time.
  * Where the author gives no range of a velocity, its unit is the one in which the coordinate crosses its interval as
  * fast as the fastest one crosses its own. */
-static double speeds_of(const nh_model *o, double *speed)
+static double speeds_of(const nh_model *model, double *speed)
 {
-    const nh_chart *c = o->chart;
-    const nh_coordinate *q = o->system->coordinate;
-    double rate = 0, *own = speed + o->m;
-    for (size_t s = 0; s < o->m; s++) rate = fmax(rate, given_speed(o, q[s].v) / nh_chart_unit(o->system, s));
-    for (size_t i = 0; i < o->n && c->quasi; i++) rate = fmax(rate, given_speed(o, c->w[i]));
+    const nh_chart *c = model->chart;
+    const nh_coordinate *q = model->system->coordinate;
+    double rate = 0, *own = speed + model->m;
+    for (size_t s = 0; s < model->m; s++)
+        rate = fmax(rate, given_speed(model, q[s].v) / nh_chart_unit(model->system, s));
+    for (size_t i = 0; i < model->n && c->quasi; i++) rate = fmax(rate, given_speed(model, c->w[i]));
     if (!(rate > 0)) rate = 1;
-    for (size_t s = 0; s < o->m; s++) {
-        double given = given_speed(o, q[s].v);
-        speed[s] = given > 0 ? given : rate * nh_chart_unit(o->system, s);
+    for (size_t s = 0; s < model->m; s++) {
+        double given = given_speed(model, q[s].v);
+        speed[s] = given > 0 ? given : rate * nh_chart_unit(model->system, s);
     }
-    for (size_t i = 0; i < o->n; i++) {
-        double given = given_speed(o, c->w[i]);
+    for (size_t i = 0; i < model->n; i++) {
+        double given = given_speed(model, c->w[i]);
         own[i] = !c->quasi ? speed[c->free[i]] : given > 0 ? given : rate;
     }
     return rate;
@@ -114,25 +116,25 @@ typedef struct {
     double steepest; /* largest |R| that is accepted in a chart of coordinate velocities: 1 / pivot */
 } guard;
 
-static guard guard_create(const nh_model *o, double pivot)
+static guard guard_create(const nh_model *model, double pivot)
 {
-    size_t m = o->m, n = o->n, total = m + m * n + n;
+    size_t m = model->m, n = model->n, total = m + m * n + n;
     nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
-    memcpy(e, o->rho, m * sizeof *e);
-    e[total] = o->Lbar;
+    memcpy(e, model->rho, m * sizeof *e);
+    e[total] = model->Lbar;
     for (size_t i = 0; i < n; i++)
-        for (size_t s = 0; s < m; s++) e[m + s + i * m] = o->R[s * n + i];
-    memcpy(e + m + m * n, o->a, n * sizeof *e);
-    guard g = {.o = o,
-               .tape = nh_model_tape(o, total + 1, e),
+        for (size_t s = 0; s < m; s++) e[m + s + i * m] = model->R[s * n + i];
+    memcpy(e + m + m * n, model->a, n * sizeof *e);
+    guard g = {.o = model,
+               .tape = nh_model_tape(model, total + 1, e),
                .out = nh_alloc_array(total + 1, sizeof(double)),
                .dense = nh_alloc_array(2 * m * n + 2 * (m + n) + 1, sizeof(double)),
-               .steepest = o->chart->quasi ? INFINITY : 1 / pivot};
+               .steepest = model->chart->quasi ? INFINITY : 1 / pivot};
     g.work = nh_tape_work_create(g.tape);
     g.slope = g.dense + m * n + m + n;
-    nh_chart_slopes(o->chart, g.slope);
+    nh_chart_slopes(model->chart, g.slope);
     g.speed = g.slope + m * n;
-    g.rate = speeds_of(o, g.speed);
+    g.rate = speeds_of(model, g.speed);
     g.unit = exp2(-10 * round(log2(g.rate) / 10));
     nh_free(e);
     return g;
@@ -195,14 +197,14 @@ static double accept(guard *g, const double *z, nh_points *p, double *steepness)
 }
 
 /* The box of (t, q, w, u), or, natural, of (t, q, q'). */
-static void stretched_box(const nh_model *o, bool natural, double stretch, double *low, double *high)
+static void stretched_box(const nh_model *model, bool natural, double stretch, double *low, double *high)
 {
-    const nh_chart *c = o->chart;
-    size_t dimension = natural ? 1 + 2 * o->m : o->width;
+    const nh_chart *c = model->chart;
+    size_t dimension = natural ? 1 + 2 * model->m : model->width;
     for (size_t i = 0; i < dimension; i++) {
-        double a = i < o->width ? c->low[i] : 0, b = i < o->width ? c->high[i] : 0;
-        if (natural && i > o->m) nh_chart_range(c, o->system->coordinate[i - 1 - o->m].v, &a, &b);
-        double middle = (a + b) / 2, half = (b - a) / 2 * (i > o->m ? stretch : 1);
+        double a = i < model->width ? c->low[i] : 0, b = i < model->width ? c->high[i] : 0;
+        if (natural && i > model->m) nh_chart_range(c, model->system->coordinate[i - 1 - model->m].v, &a, &b);
+        double middle = (a + b) / 2, half = (b - a) / 2 * (i > model->m ? stretch : 1);
         low[i] = middle - half;
         high[i] = middle + half;
     }
@@ -213,11 +215,11 @@ static void stretched_box(const nh_model *o, bool natural, double stretch, doubl
 /* A point (t, q, v) near a zero of the chart's pivot: v is moved onto the constraints, and the multiplier form gives
  * v'.  A function of the chart may have poles of the pivot there, whose rates cancel and leave errors of 1/pivot^2
  * roundings: the weight allows for it. */
-static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t, const double *q, double *v,
+static void add_beyond(nh_points *p, const nh_model *model, nh_bordered *b, double t, const double *q, double *v,
                        double steepness, const guard *g)
 {
     static const double too_steep = 1e6;
-    size_t m = o->m, n = o->n, width = o->width, at = p->beyond->count;
+    size_t m = model->m, n = model->n, width = model->width, at = p->beyond->count;
     double fast = 0, *rate = nh_alloc_array(m, sizeof *rate);
     bool good = steepness > g->steepest && steepness < too_steep && nh_bordered_project(b, t, q, NULL, v) &&
                 nh_bordered_accelerations(b, t, q, v, rate);
@@ -226,9 +228,9 @@ static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t
         double **to = p->beyond->column;
         to[0][at] = t;
         for (size_t s = 0; s < m; s++) to[1 + s][at] = q[s];
-        for (size_t i = 0; i < n; i++) to[1 + m + i][at] = v[o->chart->free[i]];
+        for (size_t i = 0; i < n; i++) to[1 + m + i][at] = v[model->chart->free[i]];
         for (size_t s = 0; s < m; s++) to[width + s][at] = v[s];
-        for (size_t i = 0; i < n; i++) to[width + m + i][at] = rate[o->chart->free[i]];
+        for (size_t i = 0; i < n; i++) to[width + m + i][at] = rate[model->chart->free[i]];
         p->beyond->weight[p->beyond->count++] = g->unit * pow(g->steepest / steepness, 2) / (1 + fast);
     }
     nh_free(rate);
@@ -237,7 +239,10 @@ static void add_beyond(nh_points *p, const nh_model *o, nh_bordered *b, double t
 /* ---- sampling ---- */
 
 /* Moves velocities in the box onto the constraints, where the chart leaves them a choice. */
-static bool is_natural(const nh_model *o) { return !o->chart->quasi && o->k > 0 && o->chart->implicit == 0; }
+static bool is_natural(const nh_model *model)
+{
+    return !model->chart->quasi && model->k > 0 && model->chart->implicit == 0;
+}
 
 typedef struct {
     const nh_model *o;
@@ -252,28 +257,28 @@ typedef struct {
 /* Appends the point in z to the list; in a natural sampling z is (t, q, v). */
 static void take(sampling *s, nh_points *p)
 {
-    const nh_model *o = s->o;
-    size_t m = o->m;
+    const nh_model *model = s->o;
+    size_t m = model->m;
     double steepness = 0, *z = s->z;
     if (s->natural) {
         memcpy(s->v, z + 1 + m, m * sizeof *s->v);
-        for (size_t i = 0; i < o->n; i++) z[1 + m + i] = s->v[o->chart->free[i]];
+        for (size_t i = 0; i < model->n; i++) z[1 + m + i] = s->v[model->chart->free[i]];
         if (!project(&s->guard, z, s->v)) {
             p->not_finite++;
             return;
         }
     }
-    if (!nh_chart_complete(o->chart, z)) {
+    if (!nh_chart_complete(model->chart, z)) {
         p->not_solved++;
         return;
     }
     double weight = accept(&s->guard, z, p, &steepness);
     if (weight > 0) {
-        for (size_t j = 0; j < o->width; j++) p->column[j][p->count] = z[j];
+        for (size_t j = 0; j < model->width; j++) p->column[j][p->count] = z[j];
         p->weight[p->count++] = weight;
     } else if (s->cover && p->beyond->count < s->count) {
-        if (!s->bordered) s->bordered = nh_bordered_create(o);
-        add_beyond(p, o, s->bordered, z[0], z + 1, s->v, steepness, &s->guard);
+        if (!s->bordered) s->bordered = nh_bordered_create(model);
+        add_beyond(p, model, s->bordered, z[0], z + 1, s->v, steepness, &s->guard);
     }
 }
 
@@ -285,22 +290,23 @@ static void sampling_clear(sampling *s, nh_sampler *sampler)
     nh_free(s->low);
 }
 
-static nh_points *create(const nh_model *o, size_t count, double stretch, uint64_t seed, bool cover, nh_error *error)
+static nh_points *create(const nh_model *model, size_t count, double stretch, uint64_t seed, bool cover,
+                         nh_error *error)
 {
-    nh_points *p = empty(count, o->width);
-    size_t room = 1 + 2 * o->m + o->width;
-    sampling s = {.o = o,
-                  .natural = is_natural(o),
-                  .guard = guard_create(o, nh_chart_least_pivot),
-                  .cover = cover && is_natural(o) && !o->chart->branch,
+    nh_points *p = empty(count, model->width);
+    size_t room = 1 + 2 * model->m + model->width;
+    sampling s = {.o = model,
+                  .natural = is_natural(model),
+                  .guard = guard_create(model, nh_chart_least_pivot),
+                  .cover = cover && is_natural(model) && !model->chart->branch,
                   .count = count};
     s.low = nh_alloc_array(4 * room, sizeof *s.low);
     s.high = s.low + room;
     s.z = s.high + room;
     s.v = s.z + room;
-    if (s.cover) p->beyond = empty(count, o->width + o->m + o->n);
-    stretched_box(o, s.natural, stretch, s.low, s.high);
-    nh_sampler *sampler = nh_sampler_create(s.natural ? 1 + 2 * o->m : o->width, s.low, s.high, seed);
+    if (s.cover) p->beyond = empty(count, model->width + model->m + model->n);
+    stretched_box(model, s.natural, stretch, s.low, s.high);
+    nh_sampler *sampler = nh_sampler_create(s.natural ? 1 + 2 * model->m : model->width, s.low, s.high, seed);
     for (size_t most = most_tries_per_point * count + 200; p->count < count && p->tried < most; p->tried++) {
         nh_sampler_next(sampler, s.z);
         take(&s, p);

@@ -129,25 +129,26 @@ static bool refine(nh_projector *p, newton *s)
 
 /* ---- the points ---- */
 
-nh_projector *nh_projector_create(const nh_model *o, nh_ball *ball)
+nh_projector *nh_projector_create(const nh_model *model, nh_ball *ball)
 {
-    const nh_system *system = o->system;
-    if (!o->chart->quasi && o->k == 0) return NULL;
+    const nh_system *system = model->system;
+    if (!model->chart->quasi && model->k == 0) return NULL;
     nh_projector *p = nh_alloc(sizeof *p);
-    size_t m = o->m, quasi = o->chart->quasi ? o->n : 0;
-    *p = (nh_projector){.o = o, .ball = ball, .m = m, .k = o->k, .n = o->n, .inputs = 1 + 2 * m + quasi};
-    p->in = nh_alloc_array(p->inputs + o->k + m, sizeof *p->in);
+    size_t m = model->m, quasi = model->chart->quasi ? model->n : 0;
+    *p = (nh_projector){.o = model, .ball = ball, .m = m, .k = model->k, .n = model->n, .inputs = 1 + 2 * m + quasi};
+    p->in = nh_alloc_array(p->inputs + model->k + m, sizeof *p->in);
     p->at = nh_alloc_array(p->inputs, sizeof *p->at);
     p->in[0] = system->t;
-    nh_ex *f = p->in + p->inputs, *difference = f + o->k;
+    nh_ex *f = p->in + p->inputs, *difference = f + model->k;
     for (size_t s = 0; s < m; s++) {
         p->in[1 + s] = system->coordinate[s].q;
         p->in[1 + m + s] = system->coordinate[s].v;
-        difference[s] = nh_sub(o->dag, o->rho[s], system->coordinate[s].v);
+        difference[s] = nh_sub(model->dag, model->rho[s], system->coordinate[s].v);
     }
-    for (size_t i = 0; i < quasi; i++) p->in[1 + 2 * m + i] = o->chart->w[i];
-    for (size_t a = 0; a < o->k; a++) f[a] = nh_sub(o->dag, system->constraint[a].lhs, system->constraint[a].rhs);
-    newton_create(p, &p->constraints, m, p->in + 1 + m, o->k, f);
+    for (size_t i = 0; i < quasi; i++) p->in[1 + 2 * m + i] = model->chart->w[i];
+    for (size_t a = 0; a < model->k; a++)
+        f[a] = nh_sub(model->dag, system->constraint[a].lhs, system->constraint[a].rhs);
+    newton_create(p, &p->constraints, m, p->in + 1 + m, model->k, f);
     newton_create(p, &p->chart, quasi, p->in + 1 + 2 * m, quasi ? m : 0, difference);
     return p;
 }

@@ -20,27 +20,27 @@ static const double first_step = 1e-6, spare_digits = 20;
 static const double believed = 0.75;
 
 /* The normal equations halve the digits: twice the bits. */
-static nh_ball *ball_for(const nh_model *o, const nh_options *options)
+static nh_ball *ball_for(const nh_model *model, const nh_options *options)
 {
-    return nh_ball_create(o->dag, 2 * (long)options->bits);
+    return nh_ball_create(model->dag, 2 * (long)options->bits);
 }
 
-static bool feed_points(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t rows, uint64_t *state)
+static bool feed_points(const nh_model *model, nh_ball *ball, nh_ball_fit *fit, size_t rows, uint64_t *state)
 {
     size_t added = 0;
     for (size_t tries = 0; tries < most_tries * rows + 40 && added < rows && !nh_late(); tries++)
-        if (nh_exact_point(o, ball, state) && nh_ball_fit_add(fit)) added++;
+        if (nh_exact_point(model, ball, state) && nh_ball_fit_add(fit)) added++;
     return added == rows;
 }
 
 /* Writes digits[k] of every vector; false when it has no points. */
-static bool check_points(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, uint64_t *state, const nh_options *options,
-                         nh_refined *out)
+static bool check_points(const nh_model *model, nh_ball *ball, nh_ball_fit *fit, uint64_t *state,
+                         const nh_options *options, nh_refined *out)
 {
     size_t seen = 0;
     for (size_t k = 0; k < out->count; k++) out->digits[k] = options->bits * log10(2);
     for (size_t tries = 0; tries < most_tries * heldout_points + 40 && seen < heldout_points; tries++) {
-        bool usable = nh_exact_point(o, ball, state);
+        bool usable = nh_exact_point(model, ball, state);
         for (size_t k = 0; k < out->count && usable; k++) {
             double ratio;
             usable = nh_ball_fit_residual(fit, k, &ratio);
@@ -53,25 +53,25 @@ static bool check_points(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, uin
 
 /* The terms' rates; false when one contains rounded numbers: these limit the digits from the start, so that nothing
  * could be decided. */
-static bool exact_rates(const nh_model *o, size_t n, const nh_ex *term, nh_ex *rate)
+static bool exact_rates(const nh_model *model, size_t n, const nh_ex *term, nh_ex *rate)
 {
     bool exact = true;
     for (size_t j = 0; j < n && exact; j++) {
-        rate[j] = nh_model_values(o, nh_model_gamma(o, term[j]));
-        exact = nh_is_exact(o->dag, rate[j]);
+        rate[j] = nh_model_values(model, nh_model_gamma(model, term[j]));
+        exact = nh_is_exact(model->dag, rate[j]);
     }
     return exact;
 }
 
-static nh_refined fit_rates(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, size_t n, const nh_options *options)
+static nh_refined fit_rates(const nh_model *model, nh_ball *ball, nh_ball_fit *fit, size_t n, const nh_options *options)
 {
     nh_refined out = {0};
     uint64_t state = (uint64_t)options->seed + 313;
-    bool fed = feed_points(o, ball, fit, n + spare_rows, &state);
+    bool fed = feed_points(model, ball, fit, n + spare_rows, &state);
     if (fed) out.count = nh_ball_fit_solve(fit, options->digits, true);
     out.coefficient = nh_alloc_array(n * out.count + 1, sizeof *out.coefficient);
     out.digits = nh_alloc_array(out.count + 1, sizeof *out.digits);
-    if (!check_points(o, ball, fit, &state, options, &out)) out.count = 0;
+    if (!check_points(model, ball, fit, &state, options, &out)) out.count = 0;
     for (size_t k = 0; k < out.count; k++) {
         double *c = out.coefficient + k * n, largest = 0;
         for (size_t j = 0; j < n; j++) largest = fmax(largest, fabs(c[j] = nh_ball_fit_coefficient(fit, k, j)));
@@ -83,13 +83,13 @@ static nh_refined fit_rates(const nh_model *o, nh_ball *ball, nh_ball_fit *fit, 
     return out;
 }
 
-nh_refined nh_refine(const nh_model *o, size_t n, const nh_ex *term, const bool *leading, const nh_options *options)
+nh_refined nh_refine(const nh_model *model, size_t n, const nh_ex *term, const bool *leading, const nh_options *options)
 {
     nh_refined out = {0};
     nh_ex *rate = nh_alloc_array(n + 1, sizeof *rate);
-    if (exact_rates(o, n, term, rate)) {
-        nh_ball *ball = ball_for(o, options);
-        out = fit_rates(o, ball, nh_ball_fit_create(ball, n, rate, leading), n, options);
+    if (exact_rates(model, n, term, rate)) {
+        nh_ball *ball = ball_for(model, options);
+        out = fit_rates(model, ball, nh_ball_fit_create(ball, n, rate, leading), n, options);
     }
     nh_free(rate);
     return out;
@@ -185,11 +185,11 @@ static bool iterate_steps(newton_problem *p)
     return false;
 }
 
-bool nh_refine_numbers(const nh_model *o, size_t n, nh_ex *term, const double *coefficient, size_t pivot,
+bool nh_refine_numbers(const nh_model *model, size_t n, nh_ex *term, const double *coefficient, size_t pivot,
                        const nh_options *options)
 {
-    nh_dag *d = o->dag;
-    newton_problem p = {.o = o, .options = options, .n = n, .pivot = pivot};
+    nh_dag *d = model->dag;
+    newton_problem p = {.o = model, .options = options, .n = n, .pivot = pivot};
     p.term = nh_alloc_array(n + 1, sizeof *p.term);
     p.rate = nh_alloc_array(n + 1, sizeof *p.rate);
     p.c = nh_alloc_array(n + 1, sizeof *p.c);

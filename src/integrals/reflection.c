@@ -21,42 +21,42 @@ typedef struct {
 
 /* ---- candidates: bits are e_0, e_1..e_m, shifts of the angles, and f_1..f_n where these do not follow from e ---- */
 
-static bool is_wave(const nh_model *o, nh_ex q)
+static bool is_wave(const nh_model *model, nh_ex q)
 {
     NH_LIST(call);
-    for (size_t i = 0; i < o->m + o->n; i++) {
-        nh_ex e = i < o->m ? o->rho[i] : o->a[i - o->m];
-        size_t n = nh_functions_in(o->dag, e, &call);
+    for (size_t i = 0; i < model->m + model->n; i++) {
+        nh_ex e = i < model->m ? model->rho[i] : model->a[i - model->m];
+        size_t n = nh_functions_in(model->dag, e, &call);
         for (size_t j = 0; j < n; j++) {
-            nh_function f = nh_function_of(o->dag, call[j]);
-            if ((f == NH_SIN || f == NH_COS || f == NH_TAN) && nh_depends(o->dag, call[j], q)) return true;
+            nh_function f = nh_function_of(model->dag, call[j]);
+            if ((f == NH_SIN || f == NH_COS || f == NH_TAN) && nh_depends(model->dag, call[j], q)) return true;
         }
     }
     return false;
 }
 
-static trial start(const nh_model *o, const nh_points *points)
+static trial start(const nh_model *model, const nh_points *points)
 {
-    size_t m = o->m, n = o->n, k = o->chart->implicit;
-    trial t = {.o = o, .outputs = m + n + k, .points = points->count < trial_points ? points->count : trial_points};
+    size_t m = model->m, n = model->n, k = model->chart->implicit;
+    trial t = {.o = model, .outputs = m + n + k, .points = points->count < trial_points ? points->count : trial_points};
     nh_ex *e = nh_alloc_array(t.outputs + 1, sizeof *e);
-    memcpy(e, o->rho, m * sizeof *e);
-    memcpy(e + m, o->a, n * sizeof *e);
-    for (size_t i = 0; i < k; i++) e[m + n + i] = o->chart->residual[i];
-    t.tape = nh_model_tape(o, t.outputs, e);
+    memcpy(e, model->rho, m * sizeof *e);
+    memcpy(e + m, model->a, n * sizeof *e);
+    for (size_t i = 0; i < k; i++) e[m + n + i] = model->chart->residual[i];
+    t.tape = nh_model_tape(model, t.outputs, e);
     t.work = nh_tape_work_create(t.tape);
     nh_free(e);
-    t.z = nh_alloc_array(t.points * o->width + 1, sizeof *t.z);
+    t.z = nh_alloc_array(t.points * model->width + 1, sizeof *t.z);
     t.value = nh_alloc_array(t.points * t.outputs + 1, sizeof *t.value);
-    t.image = nh_alloc_array(o->width, sizeof *t.image);
+    t.image = nh_alloc_array(model->width, sizeof *t.image);
     t.there = nh_alloc_array(t.outputs + 1, sizeof *t.there);
     for (size_t p = 0; p < t.points; p++) {
-        for (size_t j = 0; j < o->width; j++) t.z[p * o->width + j] = points->column[j][p];
-        nh_tape_eval(t.tape, t.work, t.z + p * o->width, t.value + p * t.outputs);
+        for (size_t j = 0; j < model->width; j++) t.z[p * model->width + j] = points->column[j][p];
+        nh_tape_eval(t.tape, t.work, t.z + p * model->width, t.value + p * t.outputs);
     }
     for (size_t s = 0; s < m && t.angles < 64; s++)
-        if (is_wave(o, o->system->coordinate[s].q)) t.angle[t.angles++] = s;
-    size_t plain = 1 + m + (o->chart->quasi ? n : 0);
+        if (is_wave(model, model->system->coordinate[s].q)) t.angle[t.angles++] = s;
+    size_t plain = 1 + m + (model->chart->quasi ? n : 0);
     if (plain + t.angles > most_bits) t.angles = 0;
     t.bits = plain + t.angles;
     return t;
@@ -74,10 +74,10 @@ static void finish(trial *t)
 
 static void decode(const trial *t, uint32_t bits, nh_reflection *r)
 {
-    const nh_model *o = t->o;
-    size_t m = o->m, n = o->n, bit = 0;
-    const nh_chart *c = o->chart;
-    memset(r->shift, 0, o->width * sizeof *r->shift);
+    const nh_model *model = t->o;
+    size_t m = model->m, n = model->n, bit = 0;
+    const nh_chart *c = model->chart;
+    memset(r->shift, 0, model->width * sizeof *r->shift);
     for (size_t j = 0; j <= m; j++) r->sign[j] = bits >> bit++ & 1 ? -1 : 1;
     for (size_t i = 0; i < n; i++) {
         if (c->quasi) r->sign[1 + m + i] = bits >> bit++ & 1 ? -1 : 1;
@@ -145,22 +145,22 @@ static void enter(uint32_t bits, uint32_t *basis, size_t *count)
     }
 }
 
-nh_reflections *nh_reflections_find(const nh_model *o, const nh_points *points)
+nh_reflections *nh_reflections_find(const nh_model *model, const nh_points *points)
 {
     nh_arena *arena = nh_arena_create();
     nh_reflections *out = nh_arena_alloc(arena, sizeof *out);
-    *out = (nh_reflections){.arena = arena, .width = o->width};
-    trial t = start(o, points);
+    *out = (nh_reflections){.arena = arena, .width = model->width};
+    trial t = start(model, points);
     uint32_t basis[most_bits];
     size_t count = 0;
-    nh_reflection r = empty(arena, o->width);
+    nh_reflection r = empty(arena, model->width);
     for (uint32_t bits = 1; t.bits <= most_bits && t.points && bits < 1u << t.bits; bits++) {
         decode(&t, bits, &r);
         if (holds(&t, &r)) enter(bits, basis, &count);
     }
     out->generator = nh_arena_alloc(arena, (count + 1) * sizeof *out->generator);
     for (size_t i = 0; i < count; i++) {
-        out->generator[i] = empty(arena, o->width);
+        out->generator[i] = empty(arena, model->width);
         decode(&t, basis[i], &out->generator[i]);
     }
     out->count = count;

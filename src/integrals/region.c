@@ -35,14 +35,14 @@ typedef struct {
     double L, p[most_directions], rho[most_directions], rate, slope[most_directions];
 } sides;
 
-static bool side_at(const nh_model *o, nh_ball *ball, nh_ex g, double *z, sides *s)
+static bool side_at(const nh_model *model, nh_ball *ball, nh_ex g, double *z, sides *s)
 {
-    if (!nh_exact_at(o, ball, z) || !value_of(ball, o->Lbar, &s->L) ||
-        !value_of(ball, nh_diff(o->dag, g, o->chart->symbol[0]), &s->rate))
+    if (!nh_exact_at(model, ball, z) || !value_of(ball, model->Lbar, &s->L) ||
+        !value_of(ball, nh_diff(model->dag, g, model->chart->symbol[0]), &s->rate))
         return false;
-    for (size_t i = 0; i < o->m; i++) {
-        if (!value_of(ball, o->p[i], &s->p[i]) || !value_of(ball, o->rho[i], &s->rho[i]) ||
-            !value_of(ball, nh_diff(o->dag, g, o->chart->symbol[1 + i]), &s->slope[i]))
+    for (size_t i = 0; i < model->m; i++) {
+        if (!value_of(ball, model->p[i], &s->p[i]) || !value_of(ball, model->rho[i], &s->rho[i]) ||
+            !value_of(ball, nh_diff(model->dag, g, model->chart->symbol[1 + i]), &s->slope[i]))
             return false;
         s->rate += s->slope[i] * s->rho[i];
     }
@@ -50,21 +50,21 @@ static bool side_at(const nh_model *o, nh_ball *ball, nh_ex g, double *z, sides 
 }
 
 /* The values at one distance from the wall. */
-static bool passage_at(const nh_model *o, nh_ball *ball, const nh_crossing *c, size_t depth, passage *out)
+static bool passage_at(const nh_model *model, nh_ball *ball, const nh_crossing *c, size_t depth, passage *out)
 {
     sides below, above;
     *out = (passage){0};
-    if (!side_at(o, ball, c->wall, c->point[0][depth], &below) ||
-        !side_at(o, ball, c->wall, c->point[1][depth], &above))
+    if (!side_at(model, ball, c->wall, c->point[0][depth], &below) ||
+        !side_at(model, ball, c->wall, c->point[1][depth], &above))
         return false;
-    for (size_t s = 0; s < o->m; s++) {
+    for (size_t s = 0; s < model->m; s++) {
         out->rho[s] = above.rho[s] - below.rho[s];
         out->speed = fmax(out->speed, fabs(above.rho[s]));
     }
-    for (size_t i = 0; i < o->n; i++)
-        for (size_t s = 0; s < o->m; s++) {
+    for (size_t i = 0; i < model->n; i++)
+        for (size_t s = 0; s < model->m; s++) {
             double R;
-            if (!value_of(ball, o->R[s * o->n + i], &R)) return false;
+            if (!value_of(ball, model->R[s * model->n + i], &R)) return false;
             out->impulse[i] += R * ((above.p[s] - below.p[s]) * above.rate - (above.L - below.L) * above.slope[s]);
             out->size = fmax(out->size, fabs(R) * fmax(fabs(above.p[s] * above.rate), fabs(above.L * above.slope[s])));
         }
@@ -81,59 +81,60 @@ static bool stays(size_t n, const double *far, const double *near, double size)
 }
 
 /* Is it a function of (t, q), and no cut?  At a cut L is one of the branches of a function that continues. */
-static bool may_kick(const nh_model *o, const nh_walls *walls, nh_ex g)
+static bool may_kick(const nh_model *model, const nh_walls *walls, nh_ex g)
 {
     for (size_t i = 0; i < walls->count; i++)
         if (walls->e[i] == g && walls->cut[i]) return false;
-    for (size_t j = 1 + o->m; j < o->width; j++)
-        if (nh_depends(o->dag, g, o->chart->symbol[j])) return false;
-    return o->m <= most_directions;
+    for (size_t j = 1 + model->m; j < model->width; j++)
+        if (nh_depends(model->dag, g, model->chart->symbol[j])) return false;
+    return model->m <= most_directions;
 }
 
-static void find_impulses(const nh_model *o, const nh_options *options, nh_terrain *t)
+static void find_impulses(const nh_model *model, const nh_options *options, nh_terrain *t)
 {
-    nh_ball *ball = nh_ball_create(o->dag, (long)options->bits);
-    nh_exact_parameters(o, ball);
+    nh_ball *ball = nh_ball_create(model->dag, (long)options->bits);
+    nh_exact_parameters(model, ball);
     for (size_t k = 0; k < t->crossings.count; k++) {
         const nh_crossing *c = &t->crossings.item[k];
         passage far, near;
-        bool known = !may_kick(o, &t->walls, c->wall);
+        bool known = !may_kick(model, &t->walls, c->wall);
         for (size_t i = 0; i < t->impulses; i++) known |= t->impulse[i] == c->wall;
-        if (known || !passage_at(o, ball, c, 1, &far) || !passage_at(o, ball, c, 2, &near)) continue;
-        if (stays(o->n, far.impulse, near.impulse, near.size) || stays(o->m, far.rho, near.rho, near.speed))
+        if (known || !passage_at(model, ball, c, 1, &far) || !passage_at(model, ball, c, 2, &near)) continue;
+        if (stays(model->n, far.impulse, near.impulse, near.size) || stays(model->m, far.rho, near.rho, near.speed))
             t->impulse[t->impulses++] = c->wall;
     }
     nh_ball_free(ball);
 }
 
-nh_terrain nh_terrain_of(const nh_model *o, const nh_options *options, nh_arena *arena)
+nh_terrain nh_terrain_of(const nh_model *model, const nh_options *options, nh_arena *arena)
 {
     nh_terrain out = {0};
     uint64_t state = (uint64_t)options->seed + seed_offset;
-    nh_walls_add(&out.walls, o->dag, o->Lbar);
-    nh_walls_add(&out.walls, o->dag, o->E);
-    for (size_t s = 0; s < o->m; s++) {
-        nh_walls_add(&out.walls, o->dag, o->rho[s]);
-        if (o->system->has_forces) nh_walls_add(&out.walls, o->dag, nh_model_compose(o, o->system->force[s]));
+    nh_walls_add(&out.walls, model->dag, model->Lbar);
+    nh_walls_add(&out.walls, model->dag, model->E);
+    for (size_t s = 0; s < model->m; s++) {
+        nh_walls_add(&out.walls, model->dag, model->rho[s]);
+        if (model->system->has_forces)
+            nh_walls_add(&out.walls, model->dag, nh_model_compose(model, model->system->force[s]));
     }
-    for (size_t i = 0; i < o->chart->implicit; i++) nh_walls_add(&out.walls, o->dag, o->chart->residual[i]);
-    out.crossings = nh_crossings_find(o, &out.walls, &state, arena);
-    find_impulses(o, options, &out);
-    out.end = nh_branch_end_of(o, options, arena);
+    for (size_t i = 0; i < model->chart->implicit; i++) nh_walls_add(&out.walls, model->dag, model->chart->residual[i]);
+    out.crossings = nh_crossings_find(model, &out.walls, &state, arena);
+    find_impulses(model, options, &out);
+    out.end = nh_branch_end_of(model, options, arena);
     return out;
 }
 
 /* The walls of phi that the equations of motion do not have. */
-static nh_crossings own_crossings(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
-                                  nh_arena *arena, bool *unseen)
+static nh_crossings own_crossings(const nh_model *model, const nh_terrain *terrain, nh_ex phi,
+                                  const nh_options *options, nh_arena *arena, bool *unseen)
 {
     nh_walls all = terrain->walls, own = {0};
     uint64_t state = (uint64_t)options->seed + 2 * seed_offset;
-    nh_walls_add(&all, o->dag, phi);
+    nh_walls_add(&all, model->dag, phi);
     *unseen = all.left_out;
     /* ends of roots are not crossed; the lines show that */
     for (size_t i = terrain->walls.count; i < all.count; i++) own.e[own.count++] = all.e[i];
-    return nh_crossings_find(o, &own, &state, arena);
+    return nh_crossings_find(model, &own, &state, arena);
 }
 
 /* ---- one crossing ---- */
@@ -242,44 +243,44 @@ static void look_at_the_end(judge *j, const nh_branch_end *end, nh_region *out)
 }
 
 /* Is it continuous for any real values: entire, where each |u| in it is u? */
-static bool is_continuous(const nh_model *o, nh_ex e)
+static bool is_continuous(const nh_model *model, nh_ex e)
 {
     NH_LIST(call);
     for (bool again = true; again;) {
         again = false;
-        for (size_t i = nh_functions_in(o->dag, e, &call); i-- > 0 && !again;) {
-            if (nh_function_of(o->dag, call[i]) != NH_ABS) continue;
-            nh_ex u = nh_child(o->dag, call[i], 0);
-            e = nh_substitute(o->dag, e, 1, &call[i], &u);
+        for (size_t i = nh_functions_in(model->dag, e, &call); i-- > 0 && !again;) {
+            if (nh_function_of(model->dag, call[i]) != NH_ABS) continue;
+            nh_ex u = nh_child(model->dag, call[i], 0);
+            e = nh_substitute(model->dag, e, 1, &call[i], &u);
             again = true;
         }
     }
-    return nh_is_entire(o->dag, e, o->width, o->chart->symbol);
+    return nh_is_entire(model->dag, e, model->width, model->chart->symbol);
 }
 
 /* Then motions have no impulses, and what is constant on all sides of walls is so across them, seen or not. */
-static bool passes_all_walls(const nh_model *o, nh_ex phi)
+static bool passes_all_walls(const nh_model *model, nh_ex phi)
 {
-    bool all = is_continuous(o, o->Lbar) && is_continuous(o, phi);
-    for (size_t s = 0; s < o->m && all; s++) all = is_continuous(o, o->rho[s]);
+    bool all = is_continuous(model, model->Lbar) && is_continuous(model, phi);
+    for (size_t s = 0; s < model->m && all; s++) all = is_continuous(model, model->rho[s]);
     return all;
 }
 
-nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, double digits,
+nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits,
                        const nh_options *options, nh_arena *arena)
 {
     nh_region out = {0};
-    nh_crossings own = own_crossings(o, terrain, phi, options, arena, &out.unseen);
-    if (out.unseen && digits == 0) out.unseen = !passes_all_walls(o, phi);
+    nh_crossings own = own_crossings(model, terrain, phi, options, arena, &out.unseen);
+    if (out.unseen && digits == 0) out.unseen = !passes_all_walls(model, phi);
     if (own.count + terrain->crossings.count + terrain->end.crossings.count == 0) return out;
-    judge j = {.o = o,
-               .ball = nh_ball_create(o->dag, (long)options->bits),
+    judge j = {.o = model,
+               .ball = nh_ball_create(model->dag, (long)options->bits),
                .phi = phi,
-               .terms = 1 + o->m + o->n,
+               .terms = 1 + model->m + model->n,
                .digits = digits};
     j.term = nh_alloc_array(j.terms, sizeof *j.term);
-    nh_rate_terms(o, phi, j.term);
-    nh_exact_parameters(o, j.ball);
+    nh_rate_terms(model, phi, j.term);
+    nh_exact_parameters(model, j.ball);
     for (size_t i = 0; i < terrain->impulses; i++)
         out.wall[out.count] = terrain->impulse[i], out.kind[out.count++] = NH_REGION_IMPULSE;
     look_at_all(&j, &terrain->crossings, &out);
@@ -294,23 +295,23 @@ nh_region nh_region_of(const nh_model *o, const nh_terrain *terrain, nh_ex phi, 
     return out;
 }
 
-nh_region nh_region_of_pairs(const nh_model *o)
+nh_region nh_region_of_pairs(const nh_model *model)
 {
     nh_region out = {0};
-    for (; out.count < o->pairs && out.count < NH_MOST_WALLS; out.count++) {
-        out.wall[out.count] = o->pair[out.count].product;
-        out.kind[out.count] = o->pair[out.count].sign > 0 ? NH_REGION_ABOVE : NH_REGION_BELOW;
+    for (; out.count < model->pairs && out.count < NH_MOST_WALLS; out.count++) {
+        out.wall[out.count] = model->pair[out.count].product;
+        out.kind[out.count] = model->pair[out.count].sign > 0 ? NH_REGION_ABOVE : NH_REGION_BELOW;
     }
     return out;
 }
 
-nh_region nh_region_open(const nh_model *o, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
+nh_region nh_region_open(const nh_model *model, const nh_terrain *terrain, nh_ex phi, const nh_options *options,
                          nh_arena *arena)
 {
     nh_region out = {0};
     nh_walls walls = {0};
-    nh_crossings own = own_crossings(o, terrain, phi, options, arena, &out.unseen);
-    nh_walls_add(&walls, o->dag, phi);
+    nh_crossings own = own_crossings(model, terrain, phi, options, arena, &out.unseen);
+    nh_walls_add(&walls, model->dag, phi);
     for (size_t i = 0; i < walls.count; i++) {
         bool judged = walls.edge[i];
         for (size_t k = 0; k < own.count; k++) judged |= own.item[k].wall == walls.e[i];

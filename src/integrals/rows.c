@@ -42,52 +42,54 @@ struct nh_rows {
 };
 
 /* Values and Gamma-rates of the factors, in one tape. */
-static nh_tape *factor_tape(const nh_model *o, const nh_ansatz *a, nh_ex kappa, size_t unknowns, const nh_ex *unknown)
+static nh_tape *factor_tape(const nh_model *model, const nh_ansatz *a, nh_ex kappa, size_t unknowns,
+                            const nh_ex *unknown)
 {
     size_t n = a->factors;
-    nh_ex *out = nh_alloc_array(2 * n + 1, sizeof *out), *in = nh_alloc_array(o->width + unknowns, sizeof *in);
+    nh_ex *out = nh_alloc_array(2 * n + 1, sizeof *out), *in = nh_alloc_array(model->width + unknowns, sizeof *in);
     for (size_t i = 0; i < n; i++) {
         out[i] = a->factor[i];
-        out[n + i] = without_logarithms(o->dag, a->factor[i], nh_model_gamma(o, a->factor[i]));
+        out[n + i] = without_logarithms(model->dag, a->factor[i], nh_model_gamma(model, a->factor[i]));
     }
     out[2 * n] = kappa;
-    memcpy(in, o->chart->symbol, o->width * sizeof *in);
-    if (unknowns) memcpy(in + o->width, unknown, unknowns * sizeof *in);
-    nh_tape *tape = nh_tape_create(o->dag, o->width + unknowns, in, 2 * n + 1, out, o->system->parameters, o->parameter,
-                                   o->parameter_value);
+    memcpy(in, model->chart->symbol, model->width * sizeof *in);
+    if (unknowns) memcpy(in + model->width, unknown, unknowns * sizeof *in);
+    nh_tape *tape = nh_tape_create(model->dag, model->width + unknowns, in, 2 * n + 1, out, model->system->parameters,
+                                   model->parameter, model->parameter_value);
     nh_free(in);
     nh_free(out);
     return tape;
 }
 
 /* The same beyond the chart, where (q', w') are values: f' = f_t + f_q q' + f_w w'. */
-static nh_tape *beyond_tape(const nh_model *o, const nh_ansatz *a, size_t unknowns, const nh_ex *unknown)
+static nh_tape *beyond_tape(const nh_model *model, const nh_ansatz *a, size_t unknowns, const nh_ex *unknown)
 {
-    nh_dag *d = o->dag;
-    size_t n = a->factors, moving = o->m + o->n, width = o->width + moving;
+    nh_dag *d = model->dag;
+    size_t n = a->factors, moving = model->m + model->n, width = model->width + moving;
     nh_ex *out = nh_alloc_array(2 * n + 1, sizeof *out), *in = nh_alloc_array(width + unknowns, sizeof *in);
-    memcpy(in, o->chart->symbol, o->width * sizeof *in);
-    for (size_t i = 0; i < moving; i++) in[o->width + i] = nh_symbol_fresh(d, "rate");
+    memcpy(in, model->chart->symbol, model->width * sizeof *in);
+    for (size_t i = 0; i < moving; i++) in[model->width + i] = nh_symbol_fresh(d, "rate");
     if (unknowns) memcpy(in + width, unknown, unknowns * sizeof *in);
     for (size_t i = 0; i < n; i++) {
-        nh_ex rate =
-            nh_add(d, nh_diff(d, a->factor[i], in[0]), nh_diff_along(d, a->factor[i], moving, in + 1, in + o->width));
+        nh_ex rate = nh_add(d, nh_diff(d, a->factor[i], in[0]),
+                            nh_diff_along(d, a->factor[i], moving, in + 1, in + model->width));
         out[i] = a->factor[i];
         out[n + i] = without_logarithms(d, a->factor[i], rate);
     }
     out[2 * n] = nh_int(d, 0);
-    nh_tape *tape = nh_tape_create(d, width + unknowns, in, 2 * n + 1, out, o->system->parameters, o->parameter,
-                                   o->parameter_value);
+    nh_tape *tape = nh_tape_create(d, width + unknowns, in, 2 * n + 1, out, model->system->parameters, model->parameter,
+                                   model->parameter_value);
     nh_free(in);
     nh_free(out);
     return tape;
 }
 
-static nh_rows *prepare(const nh_model *o, const nh_ansatz *a, nh_ex kappa, size_t unknowns, const nh_ex *unknown)
+static nh_rows *prepare(const nh_model *model, const nh_ansatz *a, nh_ex kappa, size_t unknowns, const nh_ex *unknown)
 {
     nh_rows *r = nh_alloc(sizeof *r);
     size_t rows = 2 * a->factors + 1;
-    *r = (nh_rows){.model = o, .ansatz = a, .tape = factor_tape(o, a, kappa, unknowns, unknown), .unknowns = unknowns};
+    *r = (nh_rows){
+        .model = model, .ansatz = a, .tape = factor_tape(model, a, kappa, unknowns, unknown), .unknowns = unknowns};
     r->work = nh_tape_work_create(r->tape);
     r->unknown = nh_alloc_array(unknowns + 1, sizeof *r->unknown);
     if (unknowns) memcpy(r->unknown, unknown, unknowns * sizeof *unknown);
@@ -97,7 +99,7 @@ static nh_rows *prepare(const nh_model *o, const nh_ansatz *a, nh_ex kappa, size
     r->theta = nh_alloc_array(unknowns * NH_BATCH + 1, sizeof *r->theta);
     r->value = nh_alloc_array(a->columns * NH_BATCH + 1, sizeof *r->value);
     r->rate = nh_alloc_array(a->columns * NH_BATCH + 1, sizeof *r->rate);
-    r->in = nh_alloc_array(o->width + o->m + o->n + unknowns, sizeof *r->in);
+    r->in = nh_alloc_array(model->width + model->m + model->n + unknowns, sizeof *r->in);
     return r;
 }
 
@@ -203,18 +205,19 @@ static void whole(nh_rows *r, bool weigh, const nh_points *points, size_t ld, do
     }
 }
 
-void nh_rows_pencil(const nh_model *o, const nh_ansatz *a, nh_ex kappa, const nh_points *points, double *A, double *B)
+void nh_rows_pencil(const nh_model *model, const nh_ansatz *a, nh_ex kappa, const nh_points *points, double *A,
+                    double *B)
 {
-    nh_rows *r = prepare(o, a, kappa, 0, NULL);
+    nh_rows *r = prepare(model, a, kappa, 0, NULL);
     whole(r, true, points, points->count, A, B);
     nh_rows_free(r);
 }
 
-void nh_rows_all(const nh_model *o, const nh_ansatz *a, const nh_points *points, double *A, double *B)
+void nh_rows_all(const nh_model *model, const nh_ansatz *a, const nh_points *points, double *A, double *B)
 {
     const nh_points *beyond = points->beyond;
     size_t ld = nh_points_equations(points);
-    nh_rows *r = nh_rows_create(o, a, 0, NULL);
+    nh_rows *r = nh_rows_create(model, a, 0, NULL);
     whole(r, false, points, ld, A, B);
     for (size_t start = 0; beyond && start < beyond->count; start += NH_BATCH) {
         size_t count = run_beyond(r, beyond, start);
@@ -242,19 +245,19 @@ static void add_column(nh_field_column *list, size_t *count, size_t slot, nh_ex 
     list[(*count)++] = (nh_field_column){slot, e};
 }
 
-size_t nh_rows_field_columns(const nh_model *o, size_t n, const nh_ex *b, nh_field_column **out)
+size_t nh_rows_field_columns(const nh_model *model, size_t n, const nh_ex *b, nh_field_column **out)
 {
-    nh_dag *d = o->dag;
-    nh_field_column *list = nh_arena_alloc(o->arena, (n * (o->n + 1) + 1) * sizeof *list);
-    nh_ex *zeta = nh_alloc_array(o->n + 1, sizeof *zeta);
+    nh_dag *d = model->dag;
+    nh_field_column *list = nh_arena_alloc(model->arena, (n * (model->n + 1) + 1) * sizeof *list);
+    nh_ex *zeta = nh_alloc_array(model->n + 1, sizeof *zeta);
     size_t count = 0;
     for (size_t j = 0; j < n; j++) {
         nh_ex z0 = b[j];
-        for (size_t i = 0; i < o->n; i++) zeta[i] = nh_model_Y(o, i, b[j]);
-        nh_lu_solve(o->M_lu, zeta, zeta);
-        for (size_t i = 0; i < o->n; i++) {
+        for (size_t i = 0; i < model->n; i++) zeta[i] = nh_model_Y(model, i, b[j]);
+        nh_lu_solve(model->M_lu, zeta, zeta);
+        for (size_t i = 0; i < model->n; i++) {
             zeta[i] = nh_simplify_short(d, zeta[i], 0);
-            z0 = nh_sub(d, z0, nh_mul(d, o->pbar[i], zeta[i]));
+            z0 = nh_sub(d, z0, nh_mul(d, model->pbar[i], zeta[i]));
             add_column(list, &count, i + 1, zeta[i], d);
         }
         add_column(list, &count, 0, nh_simplify_short(d, z0, 0), d);
@@ -264,9 +267,9 @@ size_t nh_rows_field_columns(const nh_model *o, size_t n, const nh_ex *b, nh_fie
     return count;
 }
 
-nh_ex nh_rows_field_current(const nh_model *o, const nh_field_column *c)
+nh_ex nh_rows_field_current(const nh_model *model, const nh_field_column *c)
 {
-    return c->slot == 0 ? c->function : nh_mul(o->dag, o->pbar[c->slot - 1], c->function);
+    return c->slot == 0 ? c->function : nh_mul(model->dag, model->pbar[c->slot - 1], c->function);
 }
 
 /* The variation of the field: its own part of Phi, slot by slot.  (Phi alone would not do: z0 = g and zeta = g/pbar
@@ -284,27 +287,27 @@ static void field_values(size_t n, const nh_field_column *column, size_t slot, s
     }
 }
 
-void nh_rows_symmetry(const nh_model *o, size_t n, const nh_field_column *column, const nh_points *points,
+void nh_rows_symmetry(const nh_model *model, size_t n, const nh_field_column *column, const nh_points *points,
                       nh_equations *equations)
 {
-    nh_dag *d = o->dag;
-    size_t per = o->n + 2; /* Phi, (N0), (NY)_1..n */
+    nh_dag *d = model->dag;
+    size_t per = model->n + 2; /* Phi, (N0), (NY)_1..n */
     nh_ex *e = nh_alloc_array(n * per + 1, sizeof *e);
     for (size_t c = 0; c < n; c++) {
-        nh_ex phi = nh_rows_field_current(o, &column[c]), n0 = nh_model_X0(o, phi);
+        nh_ex phi = nh_rows_field_current(model, &column[c]), n0 = nh_model_X0(model, phi);
         size_t i = column[c].slot - 1;
         bool zeta = column[c].slot > 0;
-        if (zeta) n0 = nh_add(d, n0, nh_mul(d, o->A[i], column[c].function));
+        if (zeta) n0 = nh_add(d, n0, nh_mul(d, model->A[i], column[c].function));
         e[c * per] = phi;
         e[c * per + 1] = without_logarithms(d, phi, n0);
-        for (size_t j = 0; j < o->n; j++) {
-            nh_ex ny = nh_model_Y(o, j, phi);
-            if (zeta) ny = nh_sub(d, ny, nh_mul(d, o->M[i * o->n + j], column[c].function));
+        for (size_t j = 0; j < model->n; j++) {
+            nh_ex ny = nh_model_Y(model, j, phi);
+            if (zeta) ny = nh_sub(d, ny, nh_mul(d, model->M[i * model->n + j], column[c].function));
             e[c * per + 2 + j] = without_logarithms(d, phi, ny);
         }
     }
     double *value = nh_alloc_array(n * per * points->count + 1, sizeof *value);
-    nh_points_evaluate(points, o, n * per, e, value);
+    nh_points_evaluate(points, model, n * per, e, value);
     double *block = nh_alloc_array(n * points->count + 1, sizeof *block);
     for (size_t q = 1; q < per; q++) {
         for (size_t c = 0; c < n; c++) {
@@ -313,7 +316,7 @@ void nh_rows_symmetry(const nh_model *o, size_t n, const nh_field_column *column
         }
         nh_equations_add(equations, points->count, block, points->count);
     }
-    for (size_t slot = 0; slot <= o->n; slot++) {
+    for (size_t slot = 0; slot <= model->n; slot++) {
         field_values(n, column, slot, per, points->count, value, block);
         nh_equations_add_values(equations, points->count, block, points->count);
     }

@@ -20,20 +20,20 @@ typedef struct {
     double *z, *here, *there, *image;
 } mirror;
 
-static mirror mirror_create(const nh_model *o, const nh_ansatz *a, const nh_points *points)
+static mirror mirror_create(const nh_model *model, const nh_ansatz *a, const nh_points *points)
 {
-    mirror m = {.o = o,
+    mirror m = {.o = model,
                 .a = a,
-                .tape = nh_model_tape(o, a->factors, a->factor),
+                .tape = nh_model_tape(model, a->factors, a->factor),
                 .points = points->count < parity_points ? points->count : parity_points};
     m.work = nh_tape_work_create(m.tape);
-    m.z = nh_alloc_array(m.points * o->width + 1, sizeof *m.z);
+    m.z = nh_alloc_array(m.points * model->width + 1, sizeof *m.z);
     m.here = nh_alloc_array(m.points * a->factors + 1, sizeof *m.here);
     m.there = nh_alloc_array(a->factors + 1, sizeof *m.there);
-    m.image = nh_alloc_array(o->width, sizeof *m.image);
+    m.image = nh_alloc_array(model->width, sizeof *m.image);
     for (size_t p = 0; p < m.points; p++) {
-        for (size_t j = 0; j < o->width; j++) m.z[p * o->width + j] = points->column[j][p];
-        nh_tape_eval(m.tape, m.work, m.z + p * o->width, m.here + p * a->factors);
+        for (size_t j = 0; j < model->width; j++) m.z[p * model->width + j] = points->column[j][p];
+        nh_tape_eval(m.tape, m.work, m.z + p * model->width, m.here + p * a->factors);
     }
     return m;
 }
@@ -128,12 +128,13 @@ static void reorder(nh_ansatz *a, const keyed *order)
     a->to_term = map;
 }
 
-nh_sectors nh_sectors_split(const nh_model *o, const nh_reflections *reflections, const nh_points *points, nh_ansatz *a)
+nh_sectors nh_sectors_split(const nh_model *model, const nh_reflections *reflections, const nh_points *points,
+                            nh_ansatz *a)
 {
     nh_sectors s = {.first = nh_alloc_array(a->columns + 2, sizeof *s.first)};
     uint32_t *key = nh_alloc_array(a->columns + 1, sizeof *key);
     keyed *order = nh_alloc_array(a->columns + 1, sizeof *order);
-    mirror m = mirror_create(o, a, points);
+    mirror m = mirror_create(model, a, points);
     all_parities(&m, reflections, key);
     mirror_clear(&m);
     for (size_t j = 0; j < a->columns; j++) order[j] = (keyed){key[j], j};
@@ -238,7 +239,7 @@ static nh_nullspace *merge(const nh_sectors *s, nh_nullspace *const *part)
     return whole;
 }
 
-nh_nullspace *nh_sectors_solve(const nh_model *o, const nh_ansatz *a, const nh_sectors *sectors,
+nh_nullspace *nh_sectors_solve(const nh_model *model, const nh_ansatz *a, const nh_sectors *sectors,
                                const nh_points *points, const nh_nullspace_options *options, size_t threads,
                                nh_error *error)
 {
@@ -252,7 +253,7 @@ nh_nullspace *nh_sectors_solve(const nh_model *o, const nh_ansatz *a, const nh_s
     t.b = t.a + n * t.equations;
     t.part = nh_alloc_array(count + 1, sizeof *t.part);
     t.error = nh_alloc_array(count + 1, sizeof *t.error);
-    nh_rows_all(o, a, points, t.a, t.b);
+    nh_rows_all(model, a, points, t.a, t.b);
     nh_parallel(count, threads, solve_sector, &t);
     nh_nullspace *whole = NULL;
     bool good = count > 0;

@@ -8,11 +8,11 @@
 #include "integrals/total_derivative.h"
 
 /* The place becomes the coordinate along which it has a number as slope. */
-static void take(const nh_model *o, nh_ex place, nh_ex *u)
+static void take(const nh_model *model, nh_ex place, nh_ex *u)
 {
-    nh_dag *d = o->dag;
-    for (size_t s = 0; s < o->m; s++) {
-        nh_ex q = o->system->coordinate[s].q, slope = nh_diff(d, place, q);
+    nh_dag *d = model->dag;
+    for (size_t s = 0; s < model->m; s++) {
+        nh_ex q = model->system->coordinate[s].q, slope = nh_diff(d, place, q);
         if (u[s] != q || nh_kind_of(d, slope) != NH_NUMBER || nh_is_zero(d, slope)) continue;
         u[s] = nh_mul(d, place, nh_powi(d, slope, -1));
         return;
@@ -49,17 +49,17 @@ static bool invert(nh_dag *d, size_t m, const nh_ex *N, nh_ex *inverse)
 }
 
 /* u, and dq^k/du^i in inverse[k m + i].  False: see shown_coordinates.h. */
-static bool change(const nh_model *o, size_t places, const nh_ex *place, nh_ex *u, nh_ex *inverse)
+static bool change(const nh_model *model, size_t places, const nh_ex *place, nh_ex *u, nh_ex *inverse)
 {
-    nh_dag *d = o->dag;
-    const nh_system *y = o->system;
-    size_t m = o->m;
+    nh_dag *d = model->dag;
+    const nh_system *system = model->system;
+    size_t m = model->m;
     nh_ex *N = nh_alloc_array(m * m + 1, sizeof *N);
     bool mixed = false;
-    for (size_t s = 0; s < m; s++) u[s] = y->coordinate[s].q;
-    for (size_t i = 0; i < places; i++) take(o, place[i], u);
+    for (size_t s = 0; s < m; s++) u[s] = system->coordinate[s].q;
+    for (size_t i = 0; i < places; i++) take(model, place[i], u);
     for (size_t i = 0; i < m * m; i++) {
-        N[i] = nh_sub(d, nh_int(d, i / m == i % m), nh_diff(d, u[i / m], y->coordinate[i % m].q));
+        N[i] = nh_sub(d, nh_int(d, i / m == i % m), nh_diff(d, u[i / m], system->coordinate[i % m].q));
         mixed |= !nh_is_zero(d, N[i]);
     }
     bool good = mixed && invert(d, m, N, inverse);
@@ -67,35 +67,35 @@ static bool change(const nh_model *o, size_t places, const nh_ex *place, nh_ex *
     return good;
 }
 
-bool nh_shown_coordinates(const nh_model *o, size_t places, const nh_ex *place, nh_ex *u, nh_ex *P)
+bool nh_shown_coordinates(const nh_model *model, size_t places, const nh_ex *place, nh_ex *u, nh_ex *P)
 {
-    nh_dag *d = o->dag;
-    size_t m = o->m;
+    nh_dag *d = model->dag;
+    size_t m = model->m;
     nh_ex *inverse = nh_alloc_array(m * m + 1, sizeof *inverse);
-    bool good = change(o, places, place, u, inverse);
-    nh_ex L = good ? nh_total_derivative_removed(o) : o->system->lagrangian;
+    bool good = change(model, places, place, u, inverse);
+    nh_ex L = good ? nh_total_derivative_removed(model) : model->system->lagrangian;
     for (size_t s = 0; s < m && good; s++) {
         nh_ex sum = nh_int(d, 0);
         for (size_t k = 0; k < m; k++)
-            sum = nh_add(d, sum, nh_mul(d, nh_diff(d, L, o->system->coordinate[k].v), inverse[k * m + s]));
-        P[s] = nh_simplify_short(d, nh_model_compose(o, sum), 0);
+            sum = nh_add(d, sum, nh_mul(d, nh_diff(d, L, model->system->coordinate[k].v), inverse[k * m + s]));
+        P[s] = nh_simplify_short(d, nh_model_compose(model, sum), 0);
     }
     nh_free(inverse);
     return good;
 }
 
-size_t nh_shown_components(const nh_model *o, size_t places, const nh_ex *place, size_t most, nh_ex *out)
+size_t nh_shown_components(const nh_model *model, size_t places, const nh_ex *place, size_t most, nh_ex *out)
 {
-    nh_dag *d = o->dag;
-    size_t m = o->m, n = 0;
+    nh_dag *d = model->dag;
+    size_t m = model->m, n = 0;
     nh_ex *u = nh_alloc_array(m * (m + 1) + 1, sizeof *u), *inverse = u + m;
-    bool good = change(o, places, place, u, inverse);
+    bool good = change(model, places, place, u, inverse);
     for (size_t i = 0; i < m * m && good; i++) {
         bool before = nh_kind_of(d, inverse[i]) == NH_NUMBER;
         for (size_t j = 0; j < i; j++) before |= inverse[j] == inverse[i];
         if (before || n + m + 2 > most) continue;
         out[n++] = inverse[i];
-        out[n++] = nh_mul(d, inverse[i], o->system->t);
+        out[n++] = nh_mul(d, inverse[i], model->system->t);
         for (size_t j = 0; j < m; j++) out[n++] = nh_mul(d, inverse[i], u[j]);
     }
     nh_free(u);

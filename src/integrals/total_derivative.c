@@ -46,9 +46,9 @@ static size_t count_terms(const parts *x, nh_ex e)
 /* Takes dF/dt away where nothing but terms of L disappears. */
 static bool take_away(parts *x, nh_ex F)
 {
-    const nh_system *y = x->o->system;
+    const nh_system *system = x->o->system;
     for (size_t s = 0; s <= x->m; s++) {
-        nh_ex slope = canonical(x, nh_diff(x->d, F, s < x->m ? y->coordinate[s].q : y->t));
+        nh_ex slope = canonical(x, nh_diff(x->d, F, s < x->m ? system->coordinate[s].q : system->t));
         x->rest[s] = canonical(x, nh_sub(x->d, x->a[s], slope));
         if (count_terms(x, x->rest[s]) + count_terms(x, slope) != count_terms(x, x->a[s])) return false;
     }
@@ -57,27 +57,27 @@ static bool take_away(parts *x, nh_ex F)
 }
 
 /* Is it at most linear in all velocities? */
-static bool is_linear(const nh_model *o, nh_ex e)
+static bool is_linear(const nh_model *model, nh_ex e)
 {
-    nh_dag *d = o->dag;
-    const nh_coordinate *coordinate = o->system->coordinate;
+    nh_dag *d = model->dag;
+    const nh_coordinate *coordinate = model->system->coordinate;
     bool linear = true;
-    for (size_t i = 0; i < o->m && linear; i++) {
+    for (size_t i = 0; i < model->m && linear; i++) {
         nh_ex slope = nh_diff(d, e, coordinate[i].v);
-        for (size_t j = 0; j < o->m && linear; j++) linear = !nh_depends(d, slope, coordinate[j].v);
+        for (size_t j = 0; j < model->m && linear; j++) linear = !nh_depends(d, slope, coordinate[j].v);
     }
     return linear;
 }
 
 /* The terms of L, as it is written, that are at most linear in the velocities.  What squares add to these belongs to
  * the squares: without it momenta in moving coordinates are longer. */
-static nh_ex linear_terms(const nh_model *o)
+static nh_ex linear_terms(const nh_model *model)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex *term, sum = nh_int(d, 0);
-    size_t count = nh_terms_of(d, o->system->lagrangian, &term);
+    size_t count = nh_terms_of(d, model->system->lagrangian, &term);
     for (size_t i = count > 1; i < count; i++) /* the first one is L itself */
-        if (is_linear(o, term[i])) sum = nh_add(d, sum, term[i]);
+        if (is_linear(model, term[i])) sum = nh_add(d, sum, term[i]);
     nh_free(term);
     return sum;
 }
@@ -91,15 +91,15 @@ static int unknown_sign(void *context, nh_ex e)
 /* Integrals of the terms of one coefficient; true where one was taken away. */
 static bool integrate(parts *x, size_t s)
 {
-    const nh_system *y = x->o->system;
-    nh_ex *term, *constant = nh_alloc_array(y->parameters + x->m + 1, sizeof *constant);
-    size_t count = terms_of(x, x->a[s], &term), constants = y->parameters;
+    const nh_system *system = x->o->system;
+    nh_ex *term, *constant = nh_alloc_array(system->parameters + x->m + 1, sizeof *constant);
+    size_t count = terms_of(x, x->a[s], &term), constants = system->parameters;
     bool found = false;
     memcpy(constant, x->o->parameter, constants * sizeof *constant);
     for (size_t r = 0; r <= x->m; r++)
-        if (r != s) constant[constants++] = r < x->m ? y->coordinate[r].q : y->t;
+        if (r != s) constant[constants++] = r < x->m ? system->coordinate[r].q : system->t;
     nh_integration along = {.dag = x->d,
-                            .x = y->coordinate[s].q,
+                            .x = system->coordinate[s].q,
                             .constants = constants,
                             .constant = constant,
                             .max_terms = most_terms,
@@ -113,28 +113,28 @@ static bool integrate(parts *x, size_t s)
     return found;
 }
 
-nh_ex nh_total_derivative_removed(const nh_model *o)
+nh_ex nh_total_derivative_removed(const nh_model *model)
 {
-    nh_dag *d = o->dag;
-    const nh_system *y = o->system;
-    nh_ex L = y->lagrangian;
+    nh_dag *d = model->dag;
+    const nh_system *system = model->system;
+    nh_ex L = system->lagrangian;
     if (!nh_complexity_within(d, L, longest)) return L;
-    nh_ex from = linear_terms(o), *a = nh_alloc_array(4 * o->m + 2, sizeof *a), *rest = a + o->m + 1,
-          *v = rest + o->m + 1, *zero = v + o->m;
-    parts x = {.o = o, .d = d, .m = o->m, .a = a, .rest = rest};
+    nh_ex from = linear_terms(model), *a = nh_alloc_array(4 * model->m + 2, sizeof *a), *rest = a + model->m + 1,
+          *v = rest + model->m + 1, *zero = v + model->m;
+    parts x = {.o = model, .d = d, .m = model->m, .a = a, .rest = rest};
     bool some = false, found = false;
-    for (size_t s = 0; s < o->m; s++) {
-        v[s] = y->coordinate[s].v;
+    for (size_t s = 0; s < model->m; s++) {
+        v[s] = system->coordinate[s].v;
         zero[s] = nh_int(d, 0);
         some |= nh_depends(d, from, v[s]);
     }
-    for (size_t s = 0; s < o->m && some; s++) a[s] = canonical(&x, nh_diff(d, from, v[s]));
-    nh_ex potential = nh_substitute(d, from, o->m, v, zero);
-    if (some) a[o->m] = canonical(&x, potential);
-    for (size_t s = 0; s < o->m && some; s++) found |= integrate(&x, s);
+    for (size_t s = 0; s < model->m && some; s++) a[s] = canonical(&x, nh_diff(d, from, v[s]));
+    nh_ex potential = nh_substitute(d, from, model->m, v, zero);
+    if (some) a[model->m] = canonical(&x, potential);
+    for (size_t s = 0; s < model->m && some; s++) found |= integrate(&x, s);
     if (found) {
-        L = nh_add(d, nh_sub(d, L, from), canonical(&x, potential) == a[o->m] ? potential : a[o->m]);
-        for (size_t s = 0; s < o->m; s++) L = nh_add(d, L, nh_mul(d, a[s], v[s]));
+        L = nh_add(d, nh_sub(d, L, from), canonical(&x, potential) == a[model->m] ? potential : a[model->m]);
+        for (size_t s = 0; s < model->m; s++) L = nh_add(d, L, nh_mul(d, a[s], v[s]));
     }
     nh_free(a);
     return L;

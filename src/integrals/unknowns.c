@@ -18,8 +18,8 @@ enum { most_basins = 12, most_polished = 8, generic_probes = 3, search_rows = 40
 /* ---- the pencil ---- */
 
 /* Split a family into its one Fourier part with the unknown as frequency, and the rest. */
-static bool split_family(const nh_model *o, const nh_family *f, nh_ex unknown, const nh_family **wave, nh_family *rest,
-                         nh_family *rest_parts)
+static bool split_family(const nh_model *model, const nh_family *f, nh_ex unknown, const nh_family **wave,
+                         nh_family *rest, nh_family *rest_parts)
 {
     static const nh_family one = {.kind = NH_TERMS};
     *wave = NULL;
@@ -31,7 +31,7 @@ static bool split_family(const nh_model *o, const nh_family *f, nh_ex unknown, c
         const nh_family *p = &f->part[i];
         bool is_wave = p->kind == NH_FOURIER && p->frequency == unknown && !*wave;
         if (is_wave) *wave = p;
-        else if (nh_family_contains(o, p, unknown)) return false;
+        else if (nh_family_contains(model, p, unknown)) return false;
         else rest_parts[n++] = *p;
     }
     *rest = (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = n, .part = rest_parts};
@@ -50,21 +50,21 @@ static size_t add_value(double *value, size_t count, size_t most, double x)
 }
 
 /* Eigenvalues i mu of Gamma f = lambda Gamma(q) f belong to exp(-i mu q) f: nu = |mu| / harmonic. */
-static size_t pencil_of(const nh_model *o, const nh_points *points, const nh_family *wave, const nh_family *rest,
+static size_t pencil_of(const nh_model *model, const nh_points *points, const nh_family *wave, const nh_family *rest,
                         const nh_unknown *u, const nh_options *options, size_t count, size_t most, double *value)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_ex one = nh_int(o->dag, 1);
+    nh_ex one = nh_int(model->dag, 1);
     nh_family family = *rest;
     if (family.kind == NH_TERMS || family.parts == 0) family = (nh_family){.kind = NH_TERMS, .terms = 1, .term = &one};
-    nh_ansatz *a = nh_ansatz_create(o, points, 1, &family, (size_t)options->columns, &ignored);
+    nh_ansatz *a = nh_ansatz_create(model, points, 1, &family, (size_t)options->columns, &ignored);
     if (!a) return count;
     double *A = nh_alloc_array(points->count * a->columns + 1, sizeof *A),
            *B = nh_alloc_array(points->count * a->columns + 1, sizeof *B);
     nh_nullspace_options limits = nh_nullspace_options_from(options);
     for (size_t i = 0; i < wave->in_count; i++) {
-        nh_rows_pencil(o, a, nh_model_gamma(o, wave->in[i]), points, A, B);
+        nh_rows_pencil(model, a, nh_model_gamma(model, wave->in[i]), points, A, B);
         nh_pencil *p = nh_pencil_solve(points->count, a->columns, A, B, &limits, options->split, &ignored);
         for (size_t k = 0; p && k < p->dimension; k++) {
             if (fabs(p->re[k]) > 1e-6 * fabs(p->im[k])) continue;
@@ -81,7 +81,7 @@ static size_t pencil_of(const nh_model *o, const nh_points *points, const nh_fam
     return count;
 }
 
-size_t nh_unknowns_pencil(const nh_model *o, const nh_points *points, size_t families, const nh_family *family,
+size_t nh_unknowns_pencil(const nh_model *model, const nh_points *points, size_t families, const nh_family *family,
                           const nh_unknown *u, const nh_options *options, size_t most, double *value, bool *applied)
 {
     size_t count = 0;
@@ -89,9 +89,9 @@ size_t nh_unknowns_pencil(const nh_model *o, const nh_points *points, size_t fam
     for (size_t i = 0; i < families; i++) {
         const nh_family *wave;
         nh_family rest, *parts = nh_alloc_array(family[i].parts + 1, sizeof *parts);
-        if (split_family(o, &family[i], u->symbol, &wave, &rest, parts)) {
+        if (split_family(model, &family[i], u->symbol, &wave, &rest, parts)) {
             *applied = true;
-            count = pencil_of(o, points, wave, &rest, u, options, count, most, value);
+            count = pencil_of(model, points, wave, &rest, u, options, count, most, value);
         }
         nh_free(parts);
     }

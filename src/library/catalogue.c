@@ -64,15 +64,15 @@ bool nh_catalogue_names(const char *path, const char *of, nh_text *out, nh_error
                 nh_error_hint(error, "`nhsym show` takes parameters, coordinates and velocities");
         at += strcspn(at, ",");
     }
-    nh_system *s = error->code == NH_OK ? nh_system_read(path, 0, NULL, error) : NULL;
-    if (!s) return false;
-    for (size_t i = 0; wanted[0] && i < s->parameters; i++) nh_text_addf(out, line, s->parameter[i].name);
-    for (size_t i = 0; wanted[1] && i < s->coordinates; i++) nh_text_addf(out, line, s->coordinate[i].name);
-    for (size_t i = 0; wanted[2] && i < s->coordinates; i++)
-        nh_text_addf(out, line, nh_name_of(s->dag, s->coordinate[i].v));
-    for (size_t i = 0; wanted[2] && i < s->quasi; i++)
-        nh_text_addf(out, line, nh_name_of(s->dag, s->quasi_velocity[i]));
-    nh_system_free(s);
+    nh_system *system = error->code == NH_OK ? nh_system_read(path, 0, NULL, error) : NULL;
+    if (!system) return false;
+    for (size_t i = 0; wanted[0] && i < system->parameters; i++) nh_text_addf(out, line, system->parameter[i].name);
+    for (size_t i = 0; wanted[1] && i < system->coordinates; i++) nh_text_addf(out, line, system->coordinate[i].name);
+    for (size_t i = 0; wanted[2] && i < system->coordinates; i++)
+        nh_text_addf(out, line, nh_name_of(system->dag, system->coordinate[i].v));
+    for (size_t i = 0; wanted[2] && i < system->quasi; i++)
+        nh_text_addf(out, line, nh_name_of(system->dag, system->quasi_velocity[i]));
+    nh_system_free(system);
     return true;
 }
 

@@ -22,12 +22,12 @@ static bool has(const char *text, const char *word)
 static const char kinds[] = "no constraints, linear, affine, nonlinear, holonomic, integrable, partly, nonholonomic";
 
 /* "linear, nonholonomic" */
-static const char *constraints_of(nh_system *s, nh_arena *arena)
+static const char *constraints_of(nh_system *system, nh_arena *arena)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
-    nh_chart *chart = nh_chart_create(s, NH_CHART_AUTO, 1, &trouble);
-    nh_model *model = chart ? nh_model_create(s, chart, &trouble) : NULL;
+    nh_chart *chart = nh_chart_create(system, NH_CHART_AUTO, 1, &trouble);
+    nh_model *model = chart ? nh_model_create(system, chart, &trouble) : NULL;
     if (!model) return "";
     nh_distribution d = nh_distribution_of(model);
     const char *words =
@@ -56,17 +56,17 @@ static bool put_line(const char *name, const char *path, const char *word, nh_ar
 {
     nh_error trouble;
     nh_error_clear(&trouble);
-    nh_system *s = nh_system_read(path, 0, NULL, &trouble);
-    const char *title = s ? s->title : trouble.what, *where = "", *text = "";
+    nh_system *system = nh_system_read(path, 0, NULL, &trouble);
+    const char *title = system ? system->title : trouble.what, *where = "", *text = "";
     bool found = !word || has(name, word) || has(title, word);
-    if (!found && s && has(s->source, word)) where = "source", text = s->source, found = true;
+    if (!found && system && has(system->source, word)) where = "source", text = system->source, found = true;
     if (!found && has(remarks_of(path, arena), word)) where = "remarks", found = true;
-    if (!found && s && has(kinds, word) && has(text = constraints_of(s, arena), word))
+    if (!found && system && has(kinds, word) && has(text = constraints_of(system, arena), word))
         where = "constraints", found = true;
     if (found) nh_text_addf(out, "%-24s %s", name, title);
     if (found && *where) nh_text_addf(out, " (%s%s%s)", where, *text ? ": " : "", text);
     if (found) nh_text_add(out, "\n");
-    nh_system_free(s);
+    nh_system_free(system);
     return found;
 }
 
@@ -116,10 +116,10 @@ void nh_catalogue_similar(const char *word, nh_text *out)
         const char *path = nh_places_look(arena, "systems", names[i]);
         nh_error trouble;
         nh_error_clear(&trouble);
-        nh_system *s = path ? nh_system_read(path, 0, NULL, &trouble) : NULL;
-        if (s && (has(names[i], word) || has(s->title, word)))
+        nh_system *system = path ? nh_system_read(path, 0, NULL, &trouble) : NULL;
+        if (system && (has(names[i], word) || has(system->title, word)))
             nh_text_addf(out, "%s%s", out->length ? ", " : "", names[i]);
-        nh_system_free(s);
+        nh_system_free(system);
     }
     nh_arena_free(arena);
 }

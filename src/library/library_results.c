@@ -97,15 +97,15 @@ char *nh_current_formula(const nh_analysis *a, size_t index, nh_syntax syntax)
 static nh_tape *tape_of(const nh_analysis *a, size_t index)
 {
     if (index >= a->count || !a->found[index].has_in_velocities) return NULL;
-    const nh_system *s = a->system;
-    size_t m = s->coordinates;
+    const nh_system *system = a->system;
+    size_t m = system->coordinates;
     nh_ex form = a->found[index].in_velocities, *in = nh_alloc_array(2 * m + 1, sizeof *in);
-    in[0] = s->t;
+    in[0] = system->t;
     for (size_t i = 0; i < m; i++) {
-        in[1 + i] = s->coordinate[i].q;
-        in[1 + m + i] = s->coordinate[i].v;
+        in[1 + i] = system->coordinate[i].q;
+        in[1 + m + i] = system->coordinate[i].v;
     }
-    nh_tape *tape = nh_tape_create(a->model->dag, 2 * m + 1, in, 1, &form, s->parameters, a->model->parameter,
+    nh_tape *tape = nh_tape_create(a->model->dag, 2 * m + 1, in, 1, &form, system->parameters, a->model->parameter,
                                    a->model->parameter_value);
     nh_free(in);
     return tape;

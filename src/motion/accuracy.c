@@ -205,7 +205,7 @@ static nh_trajectory *race(nh_accuracy_search *s, double tolerance)
 /* A state in the middle of the computed part, from which a piece is typical of the whole motion. q_and_v: 2m values. */
 static nh_state state_on_the_way(const nh_accuracy_search *s, const nh_trajectory *t, double *q_and_v)
 {
-    const nh_model *o = s->request->model;
+    const nh_model *model = s->request->model;
     nh_motion *m = t->motion;
     size_t middle = m->count / 2;
     nh_state at = *s->request->initial;
@@ -214,11 +214,11 @@ static nh_state state_on_the_way(const nh_accuracy_search *s, const nh_trajector
                      .time = m->complete ? m->time + middle : &m->end_time,
                      .state = m->complete ? m->state + middle * m->size : m->end_state};
     if (t->scene) return at;
-    nh_dynamics *d = nh_dynamics_create(o);
+    nh_dynamics *d = nh_dynamics_create(model);
     bool good = nh_states_in_coordinates(d, &one, q_and_v);
-    for (size_t i = 0; i < 2 * o->m; i++) good = good && isfinite(q_and_v[i]);
+    for (size_t i = 0; i < 2 * model->m; i++) good = good && isfinite(q_and_v[i]);
     nh_dynamics_free(d);
-    return good ? (nh_state){.t = one.time[0], .q = q_and_v, .v = q_and_v + o->m} : at;
+    return good ? (nh_state){.t = one.time[0], .q = q_and_v, .v = q_and_v + model->m} : at;
 }
 
 /* Measures other methods on a piece of the motion of the first run, t; returns the first run of one that saves work, or

@@ -34,11 +34,11 @@ double nh_accuracy_difference(size_t count, size_t n, const double *a, const dou
 
 bool nh_accuracy_zeros(const nh_trajectory_request *q, double *floor)
 {
-    const nh_model *o = q->model;
-    double *z = nh_alloc_array(o->m + o->n + 1, sizeof *z);
+    const nh_model *model = q->model;
+    double *z = nh_alloc_array(model->m + model->n + 1, sizeof *z);
     bool *zero = nh_alloc_array(q->n + 1, sizeof *zero);
-    nh_dynamics *d = nh_dynamics_create(o);
-    nh_vanishing *v = nh_vanishing_create(o, q->n, q->e);
+    nh_dynamics *d = nh_dynamics_create(model);
+    nh_vanishing *v = nh_vanishing_create(model, q->n, q->e);
     nh_error ignored;
     nh_error_clear(&ignored);
     bool good = nh_dynamics_start(d, q->initial, q->project, z, &ignored);

@@ -23,15 +23,16 @@ static bool point_of_all(void *context, double t, const double *z, double *point
     return nh_dynamics_point(context, t, z, point);
 }
 
-nh_along_values *nh_along_values_create(const nh_model *o, nh_to_point *place, void *context, size_t n, const nh_ex *e)
+nh_along_values *nh_along_values_create(const nh_model *model, nh_to_point *place, void *context, size_t n,
+                                        const nh_ex *e)
 {
     nh_along_values *v = nh_alloc(sizeof *v);
-    *v = (nh_along_values){.model = o,
+    *v = (nh_along_values){.model = model,
                            .n = n,
                            .place = place,
                            .context = context,
-                           .tape = nh_model_tape(o, n, e),
-                           .point = nh_alloc_array(o->width, sizeof *v->point)};
+                           .tape = nh_model_tape(model, n, e),
+                           .point = nh_alloc_array(model->width, sizeof *v->point)};
     v->work = nh_tape_work_create(v->tape);
     return v;
 }
@@ -40,16 +41,16 @@ nh_along_values *nh_along_values_create(const nh_model *o, nh_to_point *place, v
 
 /* An expression of the chart in (t, q, v), where it holds beyond the chart: implicit velocities and roots are
  * velocities there.  `inverse`: quasi-velocities in v. */
-static nh_ex everywhere(const nh_model *o, const nh_ex *inverse, nh_ex e)
+static nh_ex everywhere(const nh_model *model, const nh_ex *inverse, nh_ex e)
 {
-    const nh_chart *c = o->chart;
-    for (size_t s = 0; s < o->m; s++)
-        if (e == o->rho[s]) return o->system->coordinate[s].v;
+    const nh_chart *c = model->chart;
+    for (size_t s = 0; s < model->m; s++)
+        if (e == model->rho[s]) return model->system->coordinate[s].v;
     nh_ex *v = nh_alloc_array(c->implicit + 1, sizeof *v);
-    for (size_t a = 0; a < c->implicit; a++) v[a] = o->system->coordinate[c->dependent[a]].v;
-    e = nh_substitute(o->dag, e, c->implicit, c->u, v);
+    for (size_t a = 0; a < c->implicit; a++) v[a] = model->system->coordinate[c->dependent[a]].v;
+    e = nh_substitute(model->dag, e, c->implicit, c->u, v);
     nh_free(v);
-    if (c->quasi) e = nh_substitute(o->dag, e, o->n, c->w, inverse);
+    if (c->quasi) e = nh_substitute(model->dag, e, model->n, c->w, inverse);
     return c->branch ? nh_chart_both_branches(c, e) : e;
 }
 
@@ -72,26 +73,27 @@ static bool point_by_other(void *context, double t, const double *z, double *poi
     return nh_along_values_at(v->velocities, t, z, point + 1 + m);
 }
 
-static nh_along_values *in_coordinates(const nh_model *o, size_t n, const nh_ex *e)
+static nh_along_values *in_coordinates(const nh_model *model, size_t n, const nh_ex *e)
 {
-    size_t m = o->m;
+    size_t m = model->m;
     nh_along_values *v = nh_alloc(sizeof *v);
     nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *out = nh_alloc_array(n + 1, sizeof *out);
-    in[0] = o->system->t;
+    in[0] = model->system->t;
     for (size_t s = 0; s < m; s++) {
-        in[1 + s] = o->system->coordinate[s].q;
-        in[1 + m + s] = o->system->coordinate[s].v;
+        in[1 + s] = model->system->coordinate[s].q;
+        in[1 + m + s] = model->system->coordinate[s].v;
     }
-    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
-    if (o->chart->quasi) nh_chart_inverse(o->chart, inverse);
-    for (size_t k = 0; k < n; k++) out[k] = everywhere(o, inverse, e[k]);
+    nh_ex *inverse = nh_alloc_array(model->n + 1, sizeof *inverse);
+    if (model->chart->quasi) nh_chart_inverse(model->chart, inverse);
+    for (size_t k = 0; k < n; k++) out[k] = everywhere(model, inverse, e[k]);
     nh_free(inverse);
-    *v = (nh_along_values){.model = o,
+    *v = (nh_along_values){.model = model,
                            .n = n,
                            .place = point_everywhere,
                            .context = v,
                            .point = nh_alloc_array(1 + 2 * m, sizeof *v->point)};
-    v->tape = nh_tape_create(o->dag, 1 + 2 * m, in, n, out, o->system->parameters, o->parameter, o->parameter_value);
+    v->tape = nh_tape_create(model->dag, 1 + 2 * m, in, n, out, model->system->parameters, model->parameter,
+                             model->parameter_value);
     v->work = nh_tape_work_create(v->tape);
     nh_free(out);
     nh_free(in);
@@ -100,8 +102,8 @@ static nh_along_values *in_coordinates(const nh_model *o, size_t n, const nh_ex 
 
 nh_along_values *nh_along_values_of(nh_dynamics *dynamics, bool all, size_t n, const nh_ex *e)
 {
-    const nh_model *o = nh_dynamics_model(dynamics);
-    return all ? in_coordinates(o, n, e) : nh_along_values_create(o, point_of_all, dynamics, n, e);
+    const nh_model *model = nh_dynamics_model(dynamics);
+    return all ? in_coordinates(model, n, e) : nh_along_values_create(model, point_of_all, dynamics, n, e);
 }
 
 nh_along_values *nh_along_values_by_other(const nh_model *model, nh_dynamics *other, size_t n, const nh_ex *e)
@@ -149,8 +151,8 @@ bool nh_along_values_events(nh_along_values *v, const nh_motion *motion, double 
 
 bool nh_along(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *value)
 {
-    const nh_model *o = nh_dynamics_model(dynamics);
-    nh_along_values *v = nh_along_values_of(dynamics, motion->size > o->m + o->n, n, e);
+    const nh_model *model = nh_dynamics_model(dynamics);
+    nh_along_values *v = nh_along_values_of(dynamics, motion->size > model->m + model->n, n, e);
     bool good = nh_along_values_outputs(v, motion, value);
     nh_along_values_free(v);
     return good;
@@ -171,10 +173,10 @@ static double *in_all(nh_along_values *velocities, size_t count, size_t size, co
 
 bool nh_states_in_coordinates(nh_dynamics *dynamics, const nh_motion *motion, double *states)
 {
-    const nh_model *o = nh_dynamics_model(dynamics);
-    nh_along_values *v = nh_along_values_of(dynamics, motion->size > o->m + o->n, o->m, o->rho);
+    const nh_model *model = nh_dynamics_model(dynamics);
+    nh_along_values *v = nh_along_values_of(dynamics, motion->size > model->m + model->n, model->m, model->rho);
     double *all = in_all(v, motion->count, motion->size, motion->time, motion->state);
-    if (all) memcpy(states, all, 2 * motion->count * o->m * sizeof *states);
+    if (all) memcpy(states, all, 2 * motion->count * model->m * sizeof *states);
     nh_free(all);
     nh_along_values_free(v);
     return all != NULL;
@@ -190,14 +192,14 @@ static bool replaced(double **states, double *by)
 
 bool nh_motion_to_coordinates(nh_dynamics *dynamics, nh_motion *motion)
 {
-    const nh_model *o = nh_dynamics_model(dynamics);
-    nh_along_values *v = nh_along_values_of(dynamics, false, o->m, o->rho);
+    const nh_model *model = nh_dynamics_model(dynamics);
+    nh_along_values *v = nh_along_values_of(dynamics, false, model->m, model->rho);
     double *time = nh_alloc_array(motion->events + 1, sizeof *time);
     for (size_t i = 0; i < motion->events; i++) time[i] = motion->event[i].time;
     bool good = replaced(&motion->state, in_all(v, motion->count, motion->size, motion->time, motion->state)) &&
                 replaced(&motion->event_state, in_all(v, motion->events, motion->size, time, motion->event_state)) &&
                 replaced(&motion->end_state, in_all(v, 1, motion->size, &motion->end_time, motion->end_state));
-    motion->size = 2 * o->m;
+    motion->size = 2 * model->m;
     nh_free(time);
     nh_along_values_free(v);
     return good;

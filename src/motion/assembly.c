@@ -29,52 +29,53 @@ struct nh_assembly {
 
 /* ---- the equations ---- */
 
-static size_t equations(const nh_model *o, nh_arena *arena, nh_ex *e, const char **words)
+static size_t equations(const nh_model *model, nh_arena *arena, nh_ex *e, const char **words)
 {
-    const nh_system *s = o->system;
+    const nh_system *system = model->system;
     size_t n = 0;
-    for (size_t a = 0; a < s->constraints; a++)
-        if (s->constraint[a].position) words[n] = s->constraint[a].text, e[n++] = s->constraint[a].level;
-    for (size_t i = 0; s->chain && i < s->chain->wheels; i++) {
-        const nh_wheel *w = &s->chain->wheel[i];
+    for (size_t a = 0; a < system->constraints; a++)
+        if (system->constraint[a].position) words[n] = system->constraint[a].text, e[n++] = system->constraint[a].level;
+    for (size_t i = 0; system->chain && i < system->chain->wheels; i++) {
+        const nh_wheel *w = &system->chain->wheel[i];
         bool moves = false;
         if (w->kind != NH_WHEEL_ROLLING) continue;
-        nh_ex height = nh_tidy(o->dag, nh_wheel_height(s->chain, o->dag, w));
-        for (size_t j = 0; j < o->m; j++) moves |= nh_depends(o->dag, height, s->coordinate[j].q);
+        nh_ex height = nh_tidy(model->dag, nh_wheel_height(system->chain, model->dag, w));
+        for (size_t j = 0; j < model->m; j++) moves |= nh_depends(model->dag, height, system->coordinate[j].q);
         if (!moves) continue;
-        words[n] = nh_arena_printf(arena, "the contact of the wheel `%s`", s->chain->body[w->body].name);
+        words[n] = nh_arena_printf(arena, "the contact of the wheel `%s`", system->chain->body[w->body].name);
         e[n++] = height;
     }
     return n;
 }
 
-nh_assembly *nh_assembly_create(const nh_model *o)
+nh_assembly *nh_assembly_create(const nh_model *model)
 {
-    const nh_system *s = o->system;
-    size_t m = o->m, most = s->constraints + (s->chain ? s->chain->wheels : 0);
+    const nh_system *system = model->system;
+    size_t m = model->m, most = system->constraints + (system->chain ? system->chain->wheels : 0);
     nh_arena *arena = nh_arena_create();
     nh_assembly *a = nh_arena_alloc(arena, sizeof *a);
     nh_ex *e = nh_arena_alloc(arena, (most + 1) * (m + 2) * sizeof *e),
           *in = nh_arena_alloc(arena, (m + 1) * sizeof *in);
-    *a = (nh_assembly){.model = o, .arena = arena, .m = m};
+    *a = (nh_assembly){.model = model, .arena = arena, .m = m};
     a->words = nh_arena_alloc(arena, (most + 1) * sizeof *a->words);
-    size_t n = a->count = equations(o, arena, e, a->words);
+    size_t n = a->count = equations(model, arena, e, a->words);
     if (!n) {
         nh_arena_free(arena);
         return NULL;
     }
-    in[0] = s->t;
-    for (size_t j = 0; j < m; j++) in[1 + j] = s->coordinate[j].q;
+    in[0] = system->t;
+    for (size_t j = 0; j < m; j++) in[1 + j] = system->coordinate[j].q;
     for (size_t k = 0; k < n; k++) {
-        e[n + k] = nh_terms_moduli(o->dag, e[k]);
-        for (size_t j = 0; j < m; j++) e[2 * n + k + j * n] = nh_diff(o->dag, e[k], in[1 + j]);
+        e[n + k] = nh_terms_moduli(model->dag, e[k]);
+        for (size_t j = 0; j < m; j++) e[2 * n + k + j * n] = nh_diff(model->dag, e[k], in[1 + j]);
     }
-    a->tape = nh_tape_create(o->dag, m + 1, in, n * (m + 2), e, s->parameters, o->parameter, o->parameter_value);
+    a->tape = nh_tape_create(model->dag, m + 1, in, n * (m + 2), e, system->parameters, model->parameter,
+                             model->parameter_value);
     a->work = nh_tape_work_create(a->tape);
     a->in = nh_arena_alloc(arena, (m + 1) * sizeof *a->in);
     a->out = nh_arena_alloc(arena, n * (m + 2) * sizeof *a->out);
     a->unit = nh_arena_alloc(arena, m * sizeof *a->unit);
-    for (size_t j = 0; j < m; j++) a->unit[j] = nh_chart_unit(s, j);
+    for (size_t j = 0; j < m; j++) a->unit[j] = nh_chart_unit(system, j);
     a->from = nh_arena_alloc(arena, m * sizeof *a->from);
     a->root = nh_arena_alloc(arena, m * m * sizeof *a->root);
     a->index = nh_arena_alloc(arena, m * sizeof *a->index);
@@ -131,9 +132,9 @@ const char *nh_assembly_violated(nh_assembly *a, double t, const double *q, doub
 static bool metric_root(nh_assembly *a, double t, const double *q0)
 {
     static const double least = 1e-9;
-    const nh_model *o = a->model;
-    size_t m = a->m, k = o->k, f = a->free;
-    nh_bordered *b = nh_bordered_create(o);
+    const nh_model *model = a->model;
+    size_t m = a->m, k = model->k, f = a->free;
+    nh_bordered *b = nh_bordered_create(model);
     double *all = nh_alloc_array(m * m + 3 * m + k * m + 2 * k + 1, sizeof *all), *h = all + m * m, *zero = h + m,
            *F = zero + m, *g = F + k * m, *level = g + k;
     double *sub = nh_alloc_array(2 * f * f + f + 1, sizeof *sub), *left = sub + f * f, *singular = left + f * f;

@@ -17,7 +17,7 @@ static const double same_rows = 1e-9; /* relative difference of two forms of one
 /* error of a state that is zero at the start, as a part of the current over its slope, that counts as rounding */
 static const double rounding = 1e-13;
 
-static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 + j]; }
+static nh_ex symbol_of(const nh_model *model, size_t j) { return model->chart->symbol[1 + j]; }
 
 /* ---- core, quadratures, rest ---- */
 
@@ -61,22 +61,23 @@ static void sort_states(nh_closed_subsystem *s, const nh_dependency_graph *w)
    value. */
 static bool rows_at_zero(const nh_closed_subsystem *s, nh_ex *e)
 {
-    const nh_model *o = s->model;
-    size_t n = s->kept, from = n + s->levels, count = s->states - from, width = o->width + s->levels;
+    const nh_model *model = s->model;
+    size_t n = s->kept, from = n + s->levels, count = s->states - from, width = model->width + s->levels;
     nh_ex *symbol = nh_alloc_array(count + 1, sizeof *symbol), *zero = nh_alloc_array(count + 1, sizeof *zero);
-    for (size_t i = 0; i < count; i++) symbol[i] = symbol_of(o, s->state[from + i]), zero[i] = nh_int(o->dag, 0);
+    for (size_t i = 0; i < count; i++)
+        symbol[i] = symbol_of(model, s->state[from + i]), zero[i] = nh_int(model->dag, 0);
     for (size_t i = 0; i < n; i++) {
-        e[i] = nh_substitute(o->dag, s->graph.row[s->state[i]], count, symbol, zero);
+        e[i] = nh_substitute(model->dag, s->graph.row[s->state[i]], count, symbol, zero);
         e[n + i] = s->graph.row[s->state[i]];
     }
     double *value = nh_alloc_array(4 * n + 1, sizeof *value), *off = value + 2 * n, *size = off + n,
            *point = nh_alloc_array(width + 1, sizeof *point);
     nh_tape *tape = nh_dependency_graph_tape(&s->graph, 2 * n, e, 0, NULL, NULL);
     nh_tape_work *work = nh_tape_work_create(tape);
-    bool good = !s->implicit && o->chart->probes > 0;
-    for (size_t p = 0; p < o->chart->probes && good; p++) {
-        memcpy(point, o->chart->probe + p * o->width, o->width * sizeof *point);
-        for (size_t k = 0; k < s->levels; k++) point[o->width + k] = 0.7385 + 0.31 * (double)(p + k); /* any */
+    bool good = !s->implicit && model->chart->probes > 0;
+    for (size_t p = 0; p < model->chart->probes && good; p++) {
+        memcpy(point, model->chart->probe + p * model->width, model->width * sizeof *point);
+        for (size_t k = 0; k < s->levels; k++) point[model->width + k] = 0.7385 + 0.31 * (double)(p + k); /* any */
         nh_tape_eval(tape, work, point, value);
         good = nh_all_finite(2 * n, value);
         for (size_t i = 0; i < n; i++) {
@@ -98,13 +99,13 @@ static bool rows_at_zero(const nh_closed_subsystem *s, nh_ex *e)
  * computed then. */
 static nh_tape *frozen_tape(const nh_closed_subsystem *s, size_t n, const nh_ex *e)
 {
-    const nh_model *o = s->model;
-    size_t from = s->kept + s->levels, count = o->chart->probes ? s->states - from : 0;
+    const nh_model *model = s->model;
+    size_t from = s->kept + s->levels, count = model->chart->probes ? s->states - from : 0;
     nh_ex *symbol = nh_alloc_array(count + 1, sizeof *symbol);
     double *value = nh_alloc_array(count + 1, sizeof *value);
     for (size_t i = 0; i < count; i++) {
-        symbol[i] = symbol_of(o, s->state[from + i]);
-        value[i] = o->chart->probe[1 + s->state[from + i]];
+        symbol[i] = symbol_of(model, s->state[from + i]);
+        value[i] = model->chart->probe[1 + s->state[from + i]];
     }
     nh_tape *tape = nh_dependency_graph_tape(&s->graph, n, e, s->implicit ? 0 : count, symbol, value);
     nh_free(value);
@@ -114,26 +115,27 @@ static nh_tape *frozen_tape(const nh_closed_subsystem *s, size_t n, const nh_ex 
 
 static void make_tapes(nh_closed_subsystem *s)
 {
-    const nh_model *o = s->model;
+    const nh_model *model = s->model;
     size_t n = s->kept, levels = s->levels;
     nh_ex *e = nh_alloc_array(s->states + n * (n + 1) + 2 * levels + 1, sizeof *e);
-    memcpy(e, o->rho, o->m * sizeof *e);
-    memcpy(e + o->m, o->a, o->n * sizeof *e);
-    s->rate_of_all = nh_model_tape(o, s->states, e);
+    memcpy(e, model->rho, model->m * sizeof *e);
+    memcpy(e + model->m, model->a, model->n * sizeof *e);
+    s->rate_of_all = nh_model_tape(model, s->states, e);
     s->instructions_of_all = nh_tape_length(s->rate_of_all);
     bool zero = rows_at_zero(s, e);
     for (size_t i = 0; i < n && !zero; i++) e[i] = s->graph.row[s->state[i]];
     /* what follows from the equations of motion where a chart of velocities holds, and is entire, holds where it ends,
        too: both sides are continuous, and the former places are dense */
-    for (size_t i = 0; i < n; i++) s->smooth = s->smooth && nh_is_entire(o->dag, e[i], o->width, o->chart->symbol);
+    for (size_t i = 0; i < n; i++)
+        s->smooth = s->smooth && nh_is_entire(model->dag, e[i], model->width, model->chart->symbol);
     s->rate = n ? frozen_tape(s, n, e) : NULL;
     nh_ex wall[NH_MOST_WALLS];
-    s->walls = nh_walls_between(o->dag, n, e, o->width, o->chart->symbol, wall);
+    s->walls = nh_walls_between(model->dag, n, e, model->width, model->chart->symbol, wall);
     s->wall = s->walls ? frozen_tape(s, s->walls, wall) : NULL;
     s->instructions = n ? nh_tape_length(s->rate) : 0;
     bool exact = n && !nh_dynamics_differences(s->instructions, n);
     for (size_t j = 0; j < n && exact; j++)
-        for (size_t i = 0; i < n; i++) e[n + i + j * n] = nh_diff(o->dag, e[i], symbol_of(o, s->state[j]));
+        for (size_t i = 0; i < n; i++) e[n + i + j * n] = nh_diff(model->dag, e[i], symbol_of(model, s->state[j]));
     s->jacobian = exact ? frozen_tape(s, n * n, e + n) : NULL;
     for (size_t k = 0; k < levels; k++) {
         e[k] = s->graph.level[k].value;
@@ -141,24 +143,24 @@ static void make_tapes(nh_closed_subsystem *s)
     }
     s->removed = nh_dependency_graph_tape(&s->graph, 2 * levels, e, 0, NULL, NULL);
     for (size_t k = 0; k < levels; k++) e[k] = s->graph.level[k].current;
-    s->currents = nh_model_tape(o, levels, e);
+    s->currents = nh_model_tape(model, levels, e);
     nh_free(e);
 }
 
-nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *o, size_t n, const nh_ex *watched, size_t currents,
+nh_closed_subsystem *nh_closed_subsystem_create(const nh_model *model, size_t n, const nh_ex *watched, size_t currents,
                                                 const nh_ex *current)
 {
     nh_arena *arena = nh_arena_create();
     nh_closed_subsystem *s = nh_arena_alloc(arena, sizeof *s);
-    *s = (nh_closed_subsystem){.model = o, .arena = arena, .states = o->m + o->n};
+    *s = (nh_closed_subsystem){.model = model, .arena = arena, .states = model->m + model->n};
     s->state = nh_arena_alloc(arena, (s->states + 1) * sizeof *s->state);
-    nh_dependency_graph_init(&s->graph, o, n, watched, currents, current);
+    nh_dependency_graph_init(&s->graph, model, n, watched, currents, current);
     s->implicit = s->graph.implicit;
     s->kept = s->graph.count;
     s->levels = s->graph.levels;
-    s->smooth = !s->implicit && !s->levels && !o->chart->branch;
+    s->smooth = !s->implicit && !s->levels && !model->chart->branch;
     for (size_t i = 0; i < n; i++)
-        s->smooth = s->smooth && nh_is_entire(o->dag, watched[i], o->width, o->chart->symbol);
+        s->smooth = s->smooth && nh_is_entire(model->dag, watched[i], model->width, model->chart->symbol);
     sort_states(s, &s->graph);
     make_tapes(s);
     return s;

@@ -32,9 +32,9 @@ static bool is_idle(nh_dag *d, nh_ex e, size_t n, const nh_ex *parameter, const 
     return true;
 }
 
-static nh_ex lagrangian_of(const nh_model *o, const nh_chain *chain, size_t body)
+static nh_ex lagrangian_of(const nh_model *model, const nh_chain *chain, size_t body)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     const nh_body *b = &chain->body[body];
     nh_pose pose;
     nh_twist twist;
@@ -46,30 +46,30 @@ static nh_ex lagrangian_of(const nh_model *o, const nh_chain *chain, size_t body
 }
 
 /* A_b - M_b a (n), and dL_b/dw (n). */
-static void influence_of(const nh_model *o, nh_ex L, nh_ex *influence, nh_ex *momentum)
+static void influence_of(const nh_model *model, nh_ex L, nh_ex *influence, nh_ex *momentum)
 {
-    nh_dag *d = o->dag;
-    size_t n = o->n, m = o->m;
-    nh_ex *p = nh_alloc_array(m + 1, sizeof *p), lbar = nh_model_compose(o, L);
-    for (size_t i = 0; i < m; i++) p[i] = nh_model_compose(o, nh_diff(d, L, o->system->coordinate[i].v));
+    nh_dag *d = model->dag;
+    size_t n = model->n, m = model->m;
+    nh_ex *p = nh_alloc_array(m + 1, sizeof *p), lbar = nh_model_compose(model, L);
+    for (size_t i = 0; i < m; i++) p[i] = nh_model_compose(model, nh_diff(d, L, model->system->coordinate[i].v));
     for (size_t i = 0; i < n; i++) {
         nh_ex sum = nh_int(d, 0);
         for (size_t k = 0; k < m; k++) {
-            nh_ex force =
-                nh_sub(d, nh_model_compose(o, nh_diff(d, L, o->system->coordinate[k].q)), nh_model_X0(o, p[k]));
-            for (size_t j = 0; j < n; j++) force = nh_sub(d, force, nh_mul(d, nh_model_Y(o, j, p[k]), o->a[j]));
-            sum = nh_add(d, sum, nh_mul(d, o->R[k * n + i], force));
+            nh_ex force = nh_sub(d, nh_model_compose(model, nh_diff(d, L, model->system->coordinate[k].q)),
+                                 nh_model_X0(model, p[k]));
+            for (size_t j = 0; j < n; j++) force = nh_sub(d, force, nh_mul(d, nh_model_Y(model, j, p[k]), model->a[j]));
+            sum = nh_add(d, sum, nh_mul(d, model->R[k * n + i], force));
         }
         influence[i] = sum;
-        momentum[i] = nh_model_Y(o, i, lbar);
+        momentum[i] = nh_model_Y(model, i, lbar);
     }
     nh_free(p);
 }
 
 /* Does the sum of factor[i] e[i] vanish to more digits than its terms cancel by chance? */
-static bool cancels(const nh_model *o, nh_ball *ball, size_t n, const nh_ex *factor, const nh_ex *e)
+static bool cancels(const nh_model *model, nh_ball *ball, size_t n, const nh_ex *factor, const nh_ex *e)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex *term = NULL;
     size_t count = 0, capacity = 0;
     double bound, ratio, most = -INFINITY;
@@ -79,7 +79,7 @@ static bool cancels(const nh_model *o, nh_ball *ball, size_t n, const nh_ex *fac
         size_t terms = nh_terms_of(d, e[i], &of);
         nh_grow(&term, &capacity, count + terms, sizeof *term);
         for (size_t k = terms > 1; k < terms; k++)
-            term[count++] = nh_model_values(o, factor ? nh_mul(d, factor[i], of[k]) : of[k]);
+            term[count++] = nh_model_values(model, factor ? nh_mul(d, factor[i], of[k]) : of[k]);
         nh_free(of);
     }
     for (size_t i = 0; i < count && good; i++) {
@@ -94,14 +94,14 @@ static bool cancels(const nh_model *o, nh_ball *ball, size_t n, const nh_ex *fac
 /* Row j of M^-1 (A_b - M_b a), for the velocities that are kept. */
 static bool vanishes_for_kept(const nh_closed_subsystem *s, nh_ball *ball, const nh_ex *influence)
 {
-    const nh_model *o = s->model;
-    nh_ex *row = nh_alloc_array(o->n + 1, sizeof *row);
+    const nh_model *model = s->model;
+    nh_ex *row = nh_alloc_array(model->n + 1, sizeof *row);
     bool good = true;
     for (size_t j = 0; j < s->kept + s->levels && good; j++) {
-        if (s->state[j] < o->m) continue;
-        for (size_t i = 0; i < o->n; i++) row[i] = nh_int(o->dag, i == s->state[j] - o->m);
-        nh_lu_solve(o->M_lu, row, row);
-        good = cancels(o, ball, o->n, row, influence);
+        if (s->state[j] < model->m) continue;
+        for (size_t i = 0; i < model->n; i++) row[i] = nh_int(model->dag, i == s->state[j] - model->m);
+        nh_lu_solve(model->M_lu, row, row);
+        good = cancels(model, ball, model->n, row, influence);
     }
     nh_free(row);
     return good;
@@ -111,13 +111,13 @@ static bool vanishes_for_kept(const nh_closed_subsystem *s, nh_ball *ball, const
  * dropped states. */
 static bool closed_without_currents(const nh_closed_subsystem *s, nh_ball *ball)
 {
-    const nh_model *o = s->model;
+    const nh_model *model = s->model;
     bool good = true;
     for (size_t i = 0; i < s->kept + s->levels; i++)
         for (size_t j = s->kept + s->levels; j < s->states && good; j++) {
-            if (s->state[i] < o->m) continue;
-            nh_ex slope = nh_diff(o->dag, o->a[s->state[i] - o->m], o->chart->symbol[1 + s->state[j]]);
-            good = nh_is_zero(o->dag, slope) || cancels(o, ball, 1, NULL, &slope);
+            if (s->state[i] < model->m) continue;
+            nh_ex slope = nh_diff(model->dag, model->a[s->state[i] - model->m], model->chart->symbol[1 + s->state[j]]);
+            good = nh_is_zero(model->dag, slope) || cancels(model, ball, 1, NULL, &slope);
         }
     return good;
 }
@@ -126,21 +126,21 @@ static bool closed_without_currents(const nh_closed_subsystem *s, nh_ball *ball)
  * be watched). */
 static bool body_has_no_influence(const nh_closed_subsystem *s, size_t body)
 {
-    const nh_model *o = s->model;
-    size_t n = o->n, points = 0;
-    if (s->implicit || !n || !o->M_lu) return false;
+    const nh_model *model = s->model;
+    size_t n = model->n, points = 0;
+    if (s->implicit || !n || !model->M_lu) return false;
     nh_ex *influence = nh_alloc_array(2 * n, sizeof *influence), *momentum = influence + n;
-    influence_of(o, lagrangian_of(o, o->system->chain, body), influence, momentum);
-    nh_ball *ball = nh_ball_create(o->dag, ball_bits);
+    influence_of(model, lagrangian_of(model, model->system->chain, body), influence, momentum);
+    nh_ball *ball = nh_ball_create(model->dag, ball_bits);
     uint64_t state = 1;
     bool good = true, moves = false;
-    nh_exact_parameters(o, ball);
+    nh_exact_parameters(model, ball);
     for (int tries = 0; tries < most_tries && points < wanted_points && good; tries++) {
-        if (!nh_exact_point(o, ball, &state)) continue;
+        if (!nh_exact_point(model, ball, &state)) continue;
         points++;
         good = (!s->levels || closed_without_currents(s, ball)) && vanishes_for_kept(s, ball, influence);
         for (size_t j = s->kept + s->levels; j < s->states && good; j++)
-            if (s->state[j] >= o->m) moves |= !cancels(o, ball, 1, NULL, &momentum[s->state[j] - o->m]);
+            if (s->state[j] >= model->m) moves |= !cancels(model, ball, 1, NULL, &momentum[s->state[j] - model->m]);
     }
     nh_ball_free(ball);
     nh_free(influence);
@@ -151,28 +151,28 @@ static bool body_has_no_influence(const nh_closed_subsystem *s, size_t body)
  * weight. */
 static bool body_is_idle(const nh_closed_subsystem *s, size_t body, const bool *idle)
 {
-    const nh_model *o = s->model;
-    const nh_body *b = &o->system->chain->body[body];
-    size_t n = o->system->parameters;
-    bool any = false, good = is_idle(o->dag, b->mass, n, o->parameter, idle);
-    for (int i = 0; i < 9 && good; i++) good = is_idle(o->dag, b->inertia[i], n, o->parameter, idle);
+    const nh_model *model = s->model;
+    const nh_body *b = &model->system->chain->body[body];
+    size_t n = model->system->parameters;
+    bool any = false, good = is_idle(model->dag, b->mass, n, model->parameter, idle);
+    for (int i = 0; i < 9 && good; i++) good = is_idle(model->dag, b->inertia[i], n, model->parameter, idle);
     for (size_t i = 0; i < n; i++) {
-        any |= nh_depends(o->dag, b->mass, o->parameter[i]);
-        for (int j = 0; j < 9; j++) any |= nh_depends(o->dag, b->inertia[j], o->parameter[i]);
+        any |= nh_depends(model->dag, b->mass, model->parameter[i]);
+        for (int j = 0; j < 9; j++) any |= nh_depends(model->dag, b->inertia[j], model->parameter[i]);
     }
     return any ? good : body_has_no_influence(s, body);
 }
 
 void nh_closed_subsystem_idle_words(const nh_closed_subsystem *s, nh_text *out)
 {
-    const nh_model *o = s->model;
-    const nh_chain *chain = o->system->chain;
-    size_t n = o->system->parameters, names = 0, total = n + (chain ? chain->bodies : 0);
+    const nh_model *model = s->model;
+    const nh_chain *chain = model->system->chain;
+    size_t n = model->system->parameters, names = 0, total = n + (chain ? chain->bodies : 0);
     bool *idle = nh_alloc_array(n + 1, sizeof *idle);
     const char **name = nh_alloc_array(total + 1, sizeof *name);
     for (size_t i = 0; i < n; i++)
-        if ((idle[i] = nh_dependency_graph_ignores(&s->graph, o->parameter[i])))
-            name[names++] = nh_name_of(o->dag, o->parameter[i]);
+        if ((idle[i] = nh_dependency_graph_ignores(&s->graph, model->parameter[i])))
+            name[names++] = nh_name_of(model->dag, model->parameter[i]);
     if (names) {
         nh_text_add(out, names == 1 ? "the parameter " : "the parameters ");
         list_names(names, name, out);

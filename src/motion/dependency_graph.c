@@ -15,21 +15,21 @@ static const double ball_digits = 40;   /* digits to which it must vanish when i
 static const double steady = 0.02;
 enum { ball_bits = 256, ball_points = 4, most_terms = 4000, cost_of_state = 10 };
 
-static nh_ex symbol_of(const nh_model *o, size_t j) { return o->chart->symbol[1 + j]; }
+static nh_ex symbol_of(const nh_model *model, size_t j) { return model->chart->symbol[1 + j]; }
 
 nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *w, size_t n, const nh_ex *e, size_t fixed,
                                   const nh_ex *symbol, const double *value)
 {
-    const nh_model *o = w->model;
-    size_t given = o->system->parameters;
-    nh_ex *in = nh_alloc_array(o->width + w->levels + 1, sizeof *in),
+    const nh_model *model = w->model;
+    size_t given = model->system->parameters;
+    nh_ex *in = nh_alloc_array(model->width + w->levels + 1, sizeof *in),
           *bound = nh_alloc_array(given + fixed + 1, sizeof *bound);
     double *at = nh_alloc_array(given + fixed + 1, sizeof *at);
-    memcpy(in, o->chart->symbol, o->width * sizeof *in);
-    for (size_t k = 0; k < w->levels; k++) in[o->width + k] = w->level[k].constant;
-    for (size_t i = 0; i < given; i++) bound[i] = o->parameter[i], at[i] = o->parameter_value[i];
+    memcpy(in, model->chart->symbol, model->width * sizeof *in);
+    for (size_t k = 0; k < w->levels; k++) in[model->width + k] = w->level[k].constant;
+    for (size_t i = 0; i < given; i++) bound[i] = model->parameter[i], at[i] = model->parameter_value[i];
     for (size_t i = 0; i < fixed; i++) bound[given + i] = symbol[i], at[given + i] = value[i];
-    nh_tape *tape = nh_tape_create(o->dag, o->width + w->levels, in, n, e, given + fixed, bound, at);
+    nh_tape *tape = nh_tape_create(model->dag, model->width + w->levels, in, n, e, given + fixed, bound, at);
     nh_free(at);
     nh_free(bound);
     nh_free(in);
@@ -39,16 +39,16 @@ nh_tape *nh_dependency_graph_tape(const nh_dependency_graph *w, size_t n, const 
 /* n expressions at all probes, with the constants of these points: out[p * n + i]. */
 static double *at_probes(const nh_dependency_graph *w, size_t n, const nh_ex *e)
 {
-    const nh_model *o = w->model;
-    size_t probes = o->chart->probes, width = o->width;
+    const nh_model *model = w->model;
+    size_t probes = model->chart->probes, width = model->width;
     nh_ex *phi = nh_alloc_array(w->levels + 1, sizeof *phi);
     double *point = nh_alloc_array(width + w->levels + 1, sizeof *point),
            *out = nh_alloc_array(n * probes + 1, sizeof *out);
     for (size_t k = 0; k < w->levels; k++) phi[k] = w->level[k].current;
-    nh_tape *constants = nh_model_tape(o, w->levels, phi), *tape = nh_dependency_graph_tape(w, n, e, 0, NULL, NULL);
+    nh_tape *constants = nh_model_tape(model, w->levels, phi), *tape = nh_dependency_graph_tape(w, n, e, 0, NULL, NULL);
     nh_tape_work *a = nh_tape_work_create(constants), *b = nh_tape_work_create(tape);
     for (size_t p = 0; p < probes; p++) {
-        memcpy(point, o->chart->probe + p * width, width * sizeof *point);
+        memcpy(point, model->chart->probe + p * width, width * sizeof *point);
         nh_tape_eval(constants, a, point, point + width);
         nh_tape_eval(tape, b, point, out + p * n);
     }
@@ -66,17 +66,18 @@ static double *at_probes(const nh_dependency_graph *w, size_t n, const nh_ex *e)
 /* |d| below 10^-40 at the first probes, rigorously.  Constants of currents may have any value. */
 static bool vanishes_in_balls(const nh_dependency_graph *w, nh_ex d)
 {
-    const nh_model *o = w->model;
-    if (o->chart->implicit) return false; /* the probes' implicit velocities have a double's digits */
-    size_t points = o->chart->probes < ball_points ? o->chart->probes : ball_points;
-    nh_ball *ball = nh_ball_create(o->dag, ball_bits);
+    const nh_model *model = w->model;
+    if (model->chart->implicit) return false; /* the probes' implicit velocities have a double's digits */
+    size_t points = model->chart->probes < ball_points ? model->chart->probes : ball_points;
+    nh_ball *ball = nh_ball_create(model->dag, ball_bits);
     bool zero = points > 0;
     for (size_t p = 0; p < points && zero; p++) {
         double bound;
-        for (size_t i = 0; i < o->system->parameters; i++)
-            nh_ball_set_expression(ball, o->parameter[i], nh_number(o->dag, nh_num_decimal(o->parameter_value[i])));
-        for (size_t i = 0; i < o->width; i++)
-            nh_ball_set_double(ball, o->chart->symbol[i], o->chart->probe[p * o->width + i]);
+        for (size_t i = 0; i < model->system->parameters; i++)
+            nh_ball_set_expression(ball, model->parameter[i],
+                                   nh_number(model->dag, nh_num_decimal(model->parameter_value[i])));
+        for (size_t i = 0; i < model->width; i++)
+            nh_ball_set_double(ball, model->chart->symbol[i], model->chart->probe[p * model->width + i]);
         for (size_t k = 0; k < w->levels; k++)
             nh_ball_set_double(ball, w->level[k].constant, 0.7385 + 0.31 * (double)(p + k));
         zero = nh_ball_log10_bound(ball, d, &bound) && bound < -ball_digits;
@@ -104,15 +105,15 @@ static bool removed(const nh_dependency_graph *w, size_t j)
  * all derivatives. */
 static void feed_rows(nh_dependency_graph *w, size_t rows, const size_t *row, bool proved)
 {
-    const nh_model *o = w->model;
-    size_t n = w->states, count = 0, probes = o->chart->probes;
+    const nh_model *model = w->model;
+    size_t n = w->states, count = 0, probes = model->chart->probes;
     nh_ex *e = nh_alloc_array(rows * (n + 1) + 1, sizeof *e);
     size_t *from = nh_alloc_array(rows * n + 1, sizeof *from);
     for (size_t r = 0; r < rows; r++)
         for (size_t j = 0; j < n; j++) {
-            nh_ex d = removed(w, j) ? nh_int(o->dag, 0) : nh_diff(o->dag, w->row[row[r]], symbol_of(o, j));
+            nh_ex d = removed(w, j) ? nh_int(model->dag, 0) : nh_diff(model->dag, w->row[row[r]], symbol_of(model, j));
             w->feeds[row[r] * n + j] = false;
-            if (nh_is_zero(o->dag, d)) continue;
+            if (nh_is_zero(model->dag, d)) continue;
             from[count] = r * n + j;
             e[count++] = d;
         }
@@ -132,22 +133,23 @@ static void feed_rows(nh_dependency_graph *w, size_t rows, const size_t *row, bo
     nh_free(e);
 }
 
-static bool reads_implicit(const nh_model *o, nh_ex e)
+static bool reads_implicit(const nh_model *model, nh_ex e)
 {
-    for (size_t a = 0; a < o->chart->implicit; a++)
-        if (nh_depends(o->dag, e, o->chart->u[a])) return true;
+    for (size_t a = 0; a < model->chart->implicit; a++)
+        if (nh_depends(model->dag, e, model->chart->u[a])) return true;
     return false;
 }
 
 /* Implicit velocities are found together: every state in their equations is needed. */
 static void keep_implicit(nh_dependency_graph *w)
 {
-    const nh_model *o = w->model;
+    const nh_model *model = w->model;
     bool needed = false;
     for (size_t i = 0; i < w->states + w->watches; i++)
-        needed |= (i >= w->states || w->kept[i]) && reads_implicit(o, w->row[i]);
-    for (size_t a = 0; a < o->chart->implicit && needed; a++)
-        for (size_t j = 0; j < w->states; j++) w->kept[j] |= nh_depends(o->dag, o->chart->residual[a], symbol_of(o, j));
+        needed |= (i >= w->states || w->kept[i]) && reads_implicit(model, w->row[i]);
+    for (size_t a = 0; a < model->chart->implicit && needed; a++)
+        for (size_t j = 0; j < w->states; j++)
+            w->kept[j] |= nh_depends(model->dag, model->chart->residual[a], symbol_of(model, j));
     w->implicit = needed;
 }
 
@@ -214,11 +216,11 @@ void nh_dependency_graph_clear(nh_dependency_graph *w)
 /* Does A have one sign at the probes, and is it never small? */
 static bool determines(const nh_dependency_graph *w, nh_ex slope, nh_ex curvature)
 {
-    const nh_model *o = w->model;
+    const nh_model *model = w->model;
     nh_ex e[2] = {slope, curvature};
     double *value = at_probes(w, 2, e), least = INFINITY, most = 0;
-    bool good = o->chart->probes > 0;
-    for (size_t p = 0; p < o->chart->probes && good; p++) {
+    bool good = model->chart->probes > 0;
+    for (size_t p = 0; p < model->chart->probes && good; p++) {
         double a = value[2 * p];
         good = isfinite(a) && a * value[0] > 0 && fabs(value[2 * p + 1]) <= seems_zero * (1 + fabs(a));
         least = fmin(least, fabs(a));
@@ -231,15 +233,15 @@ static bool determines(const nh_dependency_graph *w, nh_ex slope, nh_ex curvatur
 /* Removes state j by this current; false when the current does not determine it, or not at every time. */
 static bool remove_state(nh_dependency_graph *w, nh_ex current, size_t j)
 {
-    const nh_model *o = w->model;
-    nh_dag *d = o->dag;
-    nh_ex x = symbol_of(o, j), zero = nh_int(d, 0), phi = current;
+    const nh_model *model = w->model;
+    nh_dag *d = model->dag;
+    nh_ex x = symbol_of(model, j), zero = nh_int(d, 0), phi = current;
     for (size_t k = 0; k < w->levels; k++) {
-        nh_ex v = symbol_of(o, w->level[k].state);
+        nh_ex v = symbol_of(model, w->level[k].state);
         phi = nh_substitute(d, phi, 1, &v, &w->level[k].value);
     }
     nh_ex slope = nh_diff(d, phi, x);
-    if (nh_is_zero(d, slope) || nh_depends(d, slope, o->system->t) || !determines(w, slope, nh_diff(d, slope, x)))
+    if (nh_is_zero(d, slope) || nh_depends(d, slope, model->system->t) || !determines(w, slope, nh_diff(d, slope, x)))
         return false;
     slope = nh_substitute(d, slope, 1, &x, &zero);
     nh_level *l = &w->level[w->levels];
@@ -324,27 +326,27 @@ bool nh_dependency_graph_ignores(const nh_dependency_graph *w, nh_ex symbol)
     return true;
 }
 
-bool nh_dependency_graph_conserved(const nh_model *o, nh_ex current)
+bool nh_dependency_graph_conserved(const nh_model *model, nh_ex current)
 {
-    nh_dependency_graph w = {.model = o};
-    nh_ex e[2] = {nh_model_gamma(o, current), current};
+    nh_dependency_graph w = {.model = model};
+    nh_ex e[2] = {nh_model_gamma(model, current), current};
     double *value = at_probes(&w, 2, e);
-    bool good = o->chart->probes > 0;
-    for (size_t p = 0; p < o->chart->probes && good; p++)
+    bool good = model->chart->probes > 0;
+    for (size_t p = 0; p < model->chart->probes && good; p++)
         good = fabs(value[2 * p]) <= seems_zero * (1 + fabs(value[2 * p + 1]));
     nh_free(value);
     return good && is_zero(&w, e[0]);
 }
 
-size_t nh_dependency_graph_cyclic(const nh_model *o, nh_ex *out)
+size_t nh_dependency_graph_cyclic(const nh_model *model, nh_ex *out)
 {
-    const nh_system *s = o->system;
+    const nh_system *system = model->system;
     size_t n = 0;
-    for (size_t i = 0; i < o->m; i++) {
-        bool cyclic =
-            nh_is_zero(o->dag, s->force[i]) && nh_is_zero(o->dag, nh_diff(o->dag, s->lagrangian, s->coordinate[i].q));
-        for (size_t a = 0; a < o->k && cyclic; a++) cyclic = nh_is_zero(o->dag, o->nu[a * o->m + i]);
-        if (cyclic) out[n++] = o->p[i];
+    for (size_t i = 0; i < model->m; i++) {
+        bool cyclic = nh_is_zero(model->dag, system->force[i]) &&
+                      nh_is_zero(model->dag, nh_diff(model->dag, system->lagrangian, system->coordinate[i].q));
+        for (size_t a = 0; a < model->k && cyclic; a++) cyclic = nh_is_zero(model->dag, model->nu[a * model->m + i]);
+        if (cyclic) out[n++] = model->p[i];
     }
     return n;
 }

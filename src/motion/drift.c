@@ -8,11 +8,11 @@
 #include "motion/trajectory.h"
 
 /* Number of outputs before the motion leaves this interval of a variable. */
-static size_t outputs_between(const nh_model *o, const nh_motion *motion, nh_ex variable, double low, double high)
+static size_t outputs_between(const nh_model *model, const nh_motion *motion, nh_ex variable, double low, double high)
 {
-    bool of_time = variable == o->system->t;
-    for (size_t s = of_time ? o->m - 1 : 0; s < o->m; s++)
-        for (size_t i = 0; (of_time || o->system->coordinate[s].q == variable) && i < motion->count; i++) {
+    bool of_time = variable == model->system->t;
+    for (size_t s = of_time ? model->m - 1 : 0; s < model->m; s++)
+        for (size_t i = 0; (of_time || model->system->coordinate[s].q == variable) && i < motion->count; i++) {
             double x = of_time ? motion->time[i] : motion->state[i * motion->size + s];
             if (x < low || x > high) return i;
         }
@@ -28,14 +28,15 @@ static size_t outputs_inside(const nh_drift_question *q, const nh_motion *motion
 }
 
 /* The change of a current along a motion in doubles, with its formula evaluated to many digits; NAN: not known. */
-static double change_by_balls(const nh_model *o, const nh_motion *motion, const bool *steep, size_t inside, nh_ex phi)
+static double change_by_balls(const nh_model *model, const nh_motion *motion, const bool *steep, size_t inside,
+                              nh_ex phi)
 {
     enum { bits = 256 };
-    const nh_chart *c = o->chart;
+    const nh_chart *c = model->chart;
     double first = NAN, worst = 0;
-    if (c->implicit || motion->size != o->m + o->n) return NAN;
-    nh_ball *ball = nh_ball_create(o->dag, bits);
-    nh_exact_parameters(o, ball);
+    if (c->implicit || motion->size != model->m + model->n) return NAN;
+    nh_ball *ball = nh_ball_create(model->dag, bits);
+    nh_exact_parameters(model, ball);
     for (size_t i = 0; i < inside && !isnan(worst); i++) {
         double value, radius;
         if (steep[i]) continue;

@@ -12,13 +12,13 @@
 
 static void make_rates(nh_dynamics *d)
 {
-    const nh_model *o = d->model;
-    nh_ex *e = nh_alloc_array(o->m + o->n, sizeof *e), wall[NH_MOST_WALLS];
-    memcpy(e, o->rho, o->m * sizeof *e);
-    memcpy(e + o->m, o->a, o->n * sizeof *e);
-    d->rate = nh_model_tape(o, o->m + o->n, e);
-    d->walls = nh_walls_between(o->dag, o->m + o->n, e, o->width, o->chart->symbol, wall);
-    if (d->walls) d->wall = nh_model_tape(o, d->walls, wall);
+    const nh_model *model = d->model;
+    nh_ex *e = nh_alloc_array(model->m + model->n, sizeof *e), wall[NH_MOST_WALLS];
+    memcpy(e, model->rho, model->m * sizeof *e);
+    memcpy(e + model->m, model->a, model->n * sizeof *e);
+    d->rate = nh_model_tape(model, model->m + model->n, e);
+    d->walls = nh_walls_between(model->dag, model->m + model->n, e, model->width, model->chart->symbol, wall);
+    if (d->walls) d->wall = nh_model_tape(model, d->walls, wall);
     nh_free(e);
 }
 
@@ -30,46 +30,48 @@ bool nh_dynamics_differences(size_t length, size_t size)
     return (double)length * (double)size > most;
 }
 
-static nh_tape *jacobian_tape(const nh_model *o)
+static nh_tape *jacobian_tape(const nh_model *model)
 {
-    size_t size = o->m + o->n;
+    size_t size = model->m + model->n;
     nh_ex *e = nh_alloc_array(size * size, sizeof *e);
     for (size_t j = 0; j < size; j++)
         for (size_t i = 0; i < size; i++)
-            e[i + j * size] = nh_diff(o->dag, i < o->m ? o->rho[i] : o->a[i - o->m], o->chart->symbol[1 + j]);
-    nh_tape *tape = nh_model_tape(o, size * size, e);
+            e[i + j * size] =
+                nh_diff(model->dag, i < model->m ? model->rho[i] : model->a[i - model->m], model->chart->symbol[1 + j]);
+    nh_tape *tape = nh_model_tape(model, size * size, e);
     nh_free(e);
     return tape;
 }
 
-nh_tape *nh_dynamics_velocity_tape(const nh_model *o)
+nh_tape *nh_dynamics_velocity_tape(const nh_model *model)
 {
-    nh_ex *e = nh_alloc_array(o->m * (1 + o->n) + 1, sizeof *e);
-    memcpy(e, o->rho, o->m * sizeof *e);
-    for (size_t i = 0; i < o->n; i++)
-        for (size_t s = 0; s < o->m; s++) e[o->m + s + i * o->m] = o->R[s * o->n + i];
-    nh_tape *tape = nh_model_tape(o, o->m * (1 + o->n), e);
+    nh_ex *e = nh_alloc_array(model->m * (1 + model->n) + 1, sizeof *e);
+    memcpy(e, model->rho, model->m * sizeof *e);
+    for (size_t i = 0; i < model->n; i++)
+        for (size_t s = 0; s < model->m; s++) e[model->m + s + i * model->m] = model->R[s * model->n + i];
+    nh_tape *tape = nh_model_tape(model, model->m * (1 + model->n), e);
     nh_free(e);
     return tape;
 }
 
-bool nh_dynamics_watched(const nh_model *o)
+bool nh_dynamics_watched(const nh_model *model)
 {
-    return !o->chart->quasi && o->k && !o->chart->implicit && !o->chart->branch;
+    return !model->chart->quasi && model->k && !model->chart->implicit && !model->chart->branch;
 }
 
 /* A chart of coordinate velocities ends where its dependent velocities are no longer determined. */
 static void watch_pivot(nh_dynamics *d)
 {
-    const nh_model *o = d->model;
-    if (!nh_dynamics_watched(o)) return;
-    nh_ex *e = nh_alloc_array(o->k * o->m, sizeof *e);
-    for (size_t a = 0; a < o->k; a++) {
-        nh_ex f = nh_constraint_without_poles(o, a);
-        for (size_t s = 0; s < o->m; s++)
-            e[a * o->m + s] = nh_chart_compose(o->chart, nh_diff(o->dag, f, o->system->coordinate[s].v));
+    const nh_model *model = d->model;
+    if (!nh_dynamics_watched(model)) return;
+    nh_ex *e = nh_alloc_array(model->k * model->m, sizeof *e);
+    for (size_t a = 0; a < model->k; a++) {
+        nh_ex f = nh_constraint_without_poles(model, a);
+        for (size_t s = 0; s < model->m; s++)
+            e[a * model->m + s] =
+                nh_chart_compose(model->chart, nh_diff(model->dag, f, model->system->coordinate[s].v));
     }
-    d->constraint = nh_model_tape(o, o->k * o->m, e);
+    d->constraint = nh_model_tape(model, model->k * model->m, e);
     nh_free(e);
 }
 
@@ -90,13 +92,14 @@ static void make_room(nh_dynamics *d)
     d->dense = nh_alloc_array(m * n + m + n + 1, sizeof *d->dense);
 }
 
-nh_dynamics *nh_dynamics_create(const nh_model *o)
+nh_dynamics *nh_dynamics_create(const nh_model *model)
 {
     nh_dynamics *d = nh_alloc(sizeof *d);
-    *d = (nh_dynamics){.model = o, .m = o->m, .n = o->n, .size = o->m + o->n, .width = o->width};
+    *d =
+        (nh_dynamics){.model = model, .m = model->m, .n = model->n, .size = model->m + model->n, .width = model->width};
     make_rates(d);
-    d->jacobian = nh_dynamics_differences(nh_tape_length(d->rate), d->size) ? NULL : jacobian_tape(o);
-    d->velocity = nh_dynamics_velocity_tape(o);
+    d->jacobian = nh_dynamics_differences(nh_tape_length(d->rate), d->size) ? NULL : jacobian_tape(model);
+    d->velocity = nh_dynamics_velocity_tape(model);
     watch_pivot(d);
     make_room(d);
     return d;
@@ -175,14 +178,14 @@ static bool jacobian_of(double t, const double *z, double *jacobian, void *conte
     return nh_all_finite(d->size * d->size, jacobian);
 }
 
-double nh_dynamics_digits_lost(const nh_model *o, const double *F, const double *R)
+double nh_dynamics_digits_lost(const nh_model *model, const double *F, const double *R)
 {
     double lost = 0;
-    for (size_t a = 0; a < o->k; a++)
-        for (size_t i = 0; i < o->n; i++) {
+    for (size_t a = 0; a < model->k; a++)
+        for (size_t i = 0; i < model->n; i++) {
             double sum = 0, row = 0, column = 0;
-            for (size_t s = 0; s < o->m; s++) {
-                double unit = nh_chart_unit(o->system, s), f = F[a + s * o->k], r = R[s + i * o->m];
+            for (size_t s = 0; s < model->m; s++) {
+                double unit = nh_chart_unit(model->system, s), f = F[a + s * model->k], r = R[s + i * model->m];
                 sum += f * r, row = hypot(row, f * unit), column = hypot(column, r / unit);
             }
             if (sum != 0) lost = fmax(lost, isfinite(sum) ? fabs(sum) / (row * column) : INFINITY);

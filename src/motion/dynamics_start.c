@@ -28,33 +28,34 @@ struct nh_start {
 };
 
 /* d2L/dv_i dv_i */
-static void inertias(const nh_model *o, nh_ex *K)
+static void inertias(const nh_model *model, nh_ex *K)
 {
-    const nh_system *y = o->system;
-    nh_ex rest = y->lagrangian;
-    const nh_chain *chain = nh_model_chain(o, &rest);
-    for (size_t s = 0; s < o->m; s++) {
-        nh_ex v = y->coordinate[s].v;
-        K[s] = nh_diff(o->dag, nh_diff(o->dag, rest, v), v);
-        if (chain) K[s] = nh_add(o->dag, K[s], chain->K[s * o->m + s]);
+    const nh_system *system = model->system;
+    nh_ex rest = system->lagrangian;
+    const nh_chain *chain = nh_model_chain(model, &rest);
+    for (size_t s = 0; s < model->m; s++) {
+        nh_ex v = system->coordinate[s].v;
+        K[s] = nh_diff(model->dag, nh_diff(model->dag, rest, v), v);
+        if (chain) K[s] = nh_add(model->dag, K[s], chain->K[s * model->m + s]);
     }
 }
 
-static nh_start *create(const nh_model *o)
+static nh_start *create(const nh_model *model)
 {
-    const nh_system *y = o->system;
-    size_t m = o->m, k = o->k, total = k + k * m + m;
+    const nh_system *system = model->system;
+    size_t m = model->m, k = model->k, total = k + k * m + m;
     nh_ex *in = nh_alloc_array(1 + 2 * m, sizeof *in), *e = nh_alloc_array(total, sizeof *e);
-    in[0] = y->t;
-    for (size_t s = 0; s < m; s++) in[1 + s] = y->coordinate[s].q, in[1 + m + s] = y->coordinate[s].v;
+    in[0] = system->t;
+    for (size_t s = 0; s < m; s++) in[1 + s] = system->coordinate[s].q, in[1 + m + s] = system->coordinate[s].v;
     for (size_t a = 0; a < k; a++) {
-        e[a] = nh_constraint_without_poles(o, a);
-        for (size_t s = 0; s < m; s++) e[k + a + s * k] = nh_diff(o->dag, e[a], y->coordinate[s].v);
+        e[a] = nh_constraint_without_poles(model, a);
+        for (size_t s = 0; s < m; s++) e[k + a + s * k] = nh_diff(model->dag, e[a], system->coordinate[s].v);
     }
-    inertias(o, e + k + k * m);
+    inertias(model, e + k + k * m);
     nh_start *c = nh_alloc(sizeof *c);
-    *c = (nh_start){.model = o, .m = m, .k = k};
-    c->tape = nh_tape_create(o->dag, 1 + 2 * m, in, total, e, y->parameters, o->parameter, o->parameter_value);
+    *c = (nh_start){.model = model, .m = m, .k = k};
+    c->tape = nh_tape_create(model->dag, 1 + 2 * m, in, total, e, system->parameters, model->parameter,
+                             model->parameter_value);
     c->work = nh_tape_work_create(c->tape);
     c->in = nh_alloc_array(1 + 2 * m + total + m + k * m + (m + k) + k + 1, sizeof *c->in);
     c->out = c->in + 1 + 2 * m, c->scale = c->out + total, c->A = c->scale + m, c->step = c->A + k * m;
@@ -408,12 +409,12 @@ bool nh_dynamics_start(nh_dynamics *d, const nh_state *state, bool project, doub
     return good;
 }
 
-bool nh_dynamics_other_branch(const nh_model *o, const nh_state *state)
+bool nh_dynamics_other_branch(const nh_model *model, const nh_state *state)
 {
-    const nh_chart *c = o->chart;
+    const nh_chart *c = model->chart;
     double root;
     if (!c->branch || (state->given && !state->given[c->dependent[0]])) return false;
-    nh_singular_start_values(o, state, 1, &c->root, &root);
+    nh_singular_start_values(model, state, 1, &c->root, &root);
     return root < 0;
 }
 
@@ -450,13 +451,14 @@ static double eliminate(size_t k, size_t m, const double *F, const bool *allowed
  */
 static bool formulas_hold(nh_start *c, const nh_state *state, const double *v)
 {
-    const nh_model *o = c->model;
-    size_t m = c->m, n = o->n;
-    double *point = nh_alloc_array(o->width + m * (1 + n) + 1, sizeof *point), *rho = point + o->width, speed = 0;
+    const nh_model *model = c->model;
+    size_t m = c->m, n = model->n;
+    double *point = nh_alloc_array(model->width + m * (1 + n) + 1, sizeof *point), *rho = point + model->width,
+           speed = 0;
     point[0] = state->t;
     memcpy(point + 1, state->q, m * sizeof *point);
-    for (size_t i = 0; i < n; i++) point[1 + m + i] = v[o->chart->free[i]];
-    nh_tape *tape = nh_dynamics_velocity_tape(o);
+    for (size_t i = 0; i < n; i++) point[1 + m + i] = v[model->chart->free[i]];
+    nh_tape *tape = nh_dynamics_velocity_tape(model);
     nh_tape_work *work = nh_tape_work_create(tape);
     nh_tape_eval(tape, work, point, rho);
     nh_tape_work_free(work);
@@ -466,27 +468,27 @@ static bool formulas_hold(nh_start *c, const nh_state *state, const double *v)
     for (size_t s = 0; s < m && good; s++) good = fabs(rho[s] - v[s]) <= NH_CHART_DIGITS * speed * c->scale[s];
     for (size_t s = 0; s < m && good; s++)
         for (size_t a = 0; a < c->k; a++) c->A[a + s * c->k] *= c->row[a] / c->scale[s];
-    good = good && nh_dynamics_digits_lost(o, c->A, rho + m) < NH_CHART_DIGITS;
+    good = good && nh_dynamics_digits_lost(model, c->A, rho + m) < NH_CHART_DIGITS;
     nh_free(point);
     return good;
 }
 
-bool nh_dynamics_other_dependents(const nh_model *o, const nh_state *state, size_t *dependent, double *v)
+bool nh_dynamics_other_dependents(const nh_model *model, const nh_state *state, size_t *dependent, double *v)
 {
     static const double singular = 1e-8;
-    if (!nh_dynamics_watched(o)) return false;
+    if (!nh_dynamics_watched(model)) return false;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_start *c = create(o);
+    nh_start *c = create(model);
     size_t k = c->k, m = c->m;
     double *F = nh_alloc_array(k * m + 1, sizeof *F);
     bool *own = nh_alloc_array(m + 1, sizeof *own), good = velocities(c, state, true, v, &ignored);
-    for (size_t a = 0; a < k; a++) own[o->chart->dependent[a]] = true;
+    for (size_t a = 0; a < k; a++) own[model->chart->dependent[a]] = true;
     for (size_t i = 0; i < k * m && good; i++) F[i] = c->A[i % m * k + i / m];
     bool determined = good && eliminate(k, m, F, own, dependent) > singular;
     bool other = good && !(determined && formulas_hold(c, state, v));
     if (other && !determined) other = eliminate(k, m, F, NULL, dependent) > singular;
-    else memcpy(dependent, o->chart->dependent, k * sizeof *dependent);
+    else memcpy(dependent, model->chart->dependent, k * sizeof *dependent);
     nh_free(own);
     nh_free(F);
     nh_dynamics_start_free(c);

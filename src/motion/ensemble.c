@@ -220,9 +220,9 @@ static bool go_to(batch *b, double target, long *steps)
 static void open_batch(batch *b, const plan *p, size_t index)
 {
     const nh_closed_subsystem *s = p->out->scene;
-    const nh_model *o = p->request->model;
+    const nh_model *model = p->request->model;
     size_t count = s->kept * lanes;
-    *b = (batch){.p = p, .first = index * lanes, .kept = s->kept, .width = o->width, .t = p->request->times[0]};
+    *b = (batch){.p = p, .first = index * lanes, .kept = s->kept, .width = model->width, .t = p->request->times[0]};
     b->members = p->out->members - b->first < lanes ? p->out->members - b->first : lanes;
     b->rate = nh_tape_work_create(s->rate);
     b->values = nh_tape_work_create(p->values);
@@ -325,20 +325,20 @@ typedef struct {
 static void compute_alone(const plan *p, const nh_trajectory_request *request, loner *l)
 {
     const nh_ensemble *e = p->out;
-    const nh_model *o = request->model;
+    const nh_model *model = request->model;
     if (nh_interrupted()) return unknown_from(p, l->member, 0);
     size_t each = e->count * e->n;
-    double *z = nh_alloc_array(2 * o->m, sizeof *z), *v = z + o->m, *target = e->value + l->member * each;
-    nh_dynamics *d = nh_dynamics_create(o);
+    double *z = nh_alloc_array(2 * model->m, sizeof *z), *v = z + model->m, *target = e->value + l->member * each;
+    nh_dynamics *d = nh_dynamics_create(model);
     nh_motion start = {.count = 1,
-                       .size = o->m + o->n,
+                       .size = model->m + model->n,
                        .time = (double *)p->request->times,
-                       .state = (double *)p->initial + l->member * (o->m + o->n)};
+                       .state = (double *)p->initial + l->member * (model->m + model->n)};
     nh_trajectory_request q = *request;
     nh_state state = {.t = q.times[0], .q = z, .v = v};
     nh_error error;
     nh_error_clear(&error);
-    memcpy(z, start.state, o->m * sizeof *z);
+    memcpy(z, start.state, model->m * sizeof *z);
     q.initial = &state;
     q.method = NULL;
     /* finding the smallest model again takes longer than the motion, and most members are here because a chart ends */

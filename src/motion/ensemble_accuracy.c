@@ -178,23 +178,23 @@ static void share_terms(search *s, const nh_trajectory_request *q, const nh_traj
 static void compute_alone(search *s, const nh_trajectory_request *request, size_t member,
                           const nh_integration_plans *ways, nh_accuracy *a)
 {
-    const nh_model *o = request->model;
+    const nh_model *model = request->model;
     nh_ensemble *e = s->e;
     loner *l = &s->one[member];
     size_t each = e->count * e->n;
-    double *z = nh_alloc_array(2 * o->m, sizeof *z), *target = e->value + member * each;
-    nh_dynamics *d = nh_dynamics_create(o);
+    double *z = nh_alloc_array(2 * model->m, sizeof *z), *target = e->value + member * each;
+    nh_dynamics *d = nh_dynamics_create(model);
     nh_motion start = {.count = 1,
                        .size = s->size,
                        .time = (double *)request->times,
                        .state = (double *)s->initial + member * s->size};
-    nh_state state = {.t = request->times[0], .q = z, .v = z + o->m};
+    nh_state state = {.t = request->times[0], .q = z, .v = z + model->m};
     nh_trajectory_request q = *request;
     nh_error error;
     nh_error_clear(&error);
-    memcpy(z, start.state, o->m * sizeof *z);
+    memcpy(z, start.state, model->m * sizeof *z);
     q.initial = &state;
-    nh_trajectory *t = nh_dynamics_velocities(d, start.time[0], start.state, z + o->m)
+    nh_trajectory *t = nh_dynamics_velocities(d, start.time[0], start.state, z + model->m)
                            ? nh_trajectory_accurate(&q, s->eps, ways, a, &error)
                            : NULL;
     if (!s->scaled) share_terms(s, &q, t);

@@ -43,13 +43,13 @@ static const double *evaluate(midpoint_work *k, nh_program which, double t, cons
 
 static midpoint_work *work_create(nh_programs *programs, nh_midpoint_rule rule)
 {
-    const nh_model *o = nh_programs_model(programs);
+    const nh_model *model = nh_programs_model(programs);
     midpoint_work *k = nh_alloc(sizeof *k);
     *k = (midpoint_work){.programs = programs,
                          .rule = rule,
-                         .m = o->m,
-                         .n = o->n,
-                         .size = o->m + o->n,
+                         .m = model->m,
+                         .n = model->n,
+                         .size = model->m + model->n,
                          .before = nh_programs_evaluations(programs)};
     size_t size = k->size;
     k->z0 = nh_alloc_array(6 * size + 2 * size * size, sizeof *k->z0);
@@ -57,7 +57,7 @@ static midpoint_work *work_create(nh_programs *programs, nh_midpoint_rule rule)
     k->zm = k->z1 + size;
     k->residual = k->zm + size;
     k->matrix = k->residual + 2 * size;
-    k->start = nh_alloc_array(o->m + o->m * o->n + o->n * o->n + 1, sizeof *k->start);
+    k->start = nh_alloc_array(model->m + model->m * model->n + model->n * model->n + 1, sizeof *k->start);
     k->large = nh_alloc_array(2 * size + 2 * size * size, sizeof *k->large);
     k->noise = k->large + size;
     k->inverse = k->noise + size;
@@ -311,13 +311,13 @@ static bool pair_terms(const midpoint_work *k, const double *pair, const double 
  * f_j is zero identically. */
 static bool pair_is_the_motion(nh_programs *programs)
 {
-    const nh_model *o = nh_programs_model(programs);
+    const nh_model *model = nh_programs_model(programs);
     midpoint_work *k = work_create(programs, NH_ENERGY);
     double *rate = k->matrix + k->size * k->size, *made_of = nh_alloc_array(k->size + 1, sizeof *made_of);
     size_t size = k->size;
-    bool same = o->chart->probes > 0;
-    for (size_t p = 0; p < o->chart->probes && same; p++) {
-        const double *z = o->chart->probe + p * o->chart->width;
+    bool same = model->chart->probes > 0;
+    for (size_t p = 0; p < model->chart->probes && same; p++) {
+        const double *z = model->chart->probe + p * model->chart->width;
         const double *f = evaluate(k, NH_PROGRAM_FLOW, z[0], z + 1), *g = evaluate(k, NH_PROGRAM_GRADIENT, z[0], z + 1);
         const double *pair = evaluate(k, NH_PROGRAM_PAIR, z[0], z + 1);
         same = pair_rate(k, pair, g, rate) && pair_terms(k, pair, g, made_of);
@@ -329,30 +329,31 @@ static bool pair_is_the_motion(nh_programs *programs)
     }
     nh_free(made_of);
     work_free(k);
-    return same && nh_is_zero(o->dag, nh_diff(o->dag, o->E, o->system->t));
+    return same && nh_is_zero(model->dag, nh_diff(model->dag, model->E, model->system->t));
 }
 
 /* What the pair does not describe, in words: forces, time, and the part of the velocities beside R w. */
-static const char *why_another_motion(const nh_model *o)
+static const char *why_another_motion(const nh_model *model)
 {
     bool time = false, nonlinear = false, affine = false;
-    nh_ex *zero = nh_alloc_array(o->n + 1, sizeof *zero);
-    for (size_t i = 0; i < o->n; i++) zero[i] = nh_int(o->dag, 0);
-    for (size_t s = 0; s < o->m; s++) {
-        time |= nh_depends(o->dag, o->rho[s], o->system->t);
-        affine |= !nh_is_zero(o->dag, nh_substitute(o->dag, o->rho[s], o->n, o->chart->w, zero));
-        for (size_t i = 0; i < o->n * o->n; i++)
-            nonlinear |= nh_depends(o->dag, o->R[s * o->n + i / o->n], o->chart->w[i % o->n]);
+    nh_ex *zero = nh_alloc_array(model->n + 1, sizeof *zero);
+    for (size_t i = 0; i < model->n; i++) zero[i] = nh_int(model->dag, 0);
+    for (size_t s = 0; s < model->m; s++) {
+        time |= nh_depends(model->dag, model->rho[s], model->system->t);
+        affine |= !nh_is_zero(model->dag, nh_substitute(model->dag, model->rho[s], model->n, model->chart->w, zero));
+        for (size_t i = 0; i < model->n * model->n; i++)
+            nonlinear |= nh_depends(model->dag, model->R[s * model->n + i / model->n], model->chart->w[i % model->n]);
     }
     nh_free(zero);
-    if (o->system->has_forces)
+    if (model->system->has_forces)
         return "it would converge to a different motion: it has no terms for forces without a potential";
     if (time) return "it would converge to a different motion: the constraints depend on time";
     if (nonlinear) return "it would converge to a different motion: the constraints are not linear in the velocities";
     if (affine) return "it would converge to a different motion: the constraints are affine";
-    return nh_depends(o->dag, o->E, o->system->t) ? "it would converge to a different motion: time occurs in the energy"
-                                                  : "it would converge to a different motion: its equations differ "
-                                                    "from those of the system at random points";
+    return nh_depends(model->dag, model->E, model->system->t)
+               ? "it would converge to a different motion: time occurs in the energy"
+               : "it would converge to a different motion: its equations differ "
+                 "from those of the system at random points";
 }
 
 const char *nh_midpoint_refused(nh_programs *programs, nh_midpoint_rule rule)

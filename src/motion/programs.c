@@ -47,60 +47,61 @@ size_t nh_programs_compiled(const nh_programs *s) { return s->compiled; }
 /* ---- the functions ---- */
 
 /* e (count) and its derivatives by z, column-major, after them. */
-static void with_derivatives(const nh_model *o, size_t count, const nh_ex *e, nh_ex *derivative)
+static void with_derivatives(const nh_model *model, size_t count, const nh_ex *e, nh_ex *derivative)
 {
-    for (size_t j = 0; j < o->m + o->n; j++)
-        for (size_t i = 0; i < count; i++) derivative[i + j * count] = nh_diff(o->dag, e[i], o->chart->symbol[1 + j]);
+    for (size_t j = 0; j < model->m + model->n; j++)
+        for (size_t i = 0; i < count; i++)
+            derivative[i + j * count] = nh_diff(model->dag, e[i], model->chart->symbol[1 + j]);
 }
 
-static void momentum(const nh_model *o, nh_ex *e)
+static void momentum(const nh_model *model, nh_ex *e)
 {
-    size_t m = o->m, n = o->n;
-    memcpy(e, o->rho, m * sizeof *e);
-    memcpy(e + m, o->p, m * sizeof *e);
+    size_t m = model->m, n = model->n;
+    memcpy(e, model->rho, m * sizeof *e);
+    memcpy(e + m, model->p, m * sizeof *e);
     for (size_t s = 0; s < m; s++) {
-        const nh_coordinate *q = &o->system->coordinate[s];
-        e[2 * m + s] =
-            nh_model_compose(o, nh_add(o->dag, nh_diff(o->dag, o->system->lagrangian, q->q), o->system->force[s]));
+        const nh_coordinate *q = &model->system->coordinate[s];
+        e[2 * m + s] = nh_model_compose(
+            model, nh_add(model->dag, nh_diff(model->dag, model->system->lagrangian, q->q), model->system->force[s]));
     }
-    memcpy(e + 3 * m, o->R, m * n * sizeof *e);
-    with_derivatives(o, 3 * m, e, e + 3 * m + m * n);
+    memcpy(e + 3 * m, model->R, m * n * sizeof *e);
+    with_derivatives(model, 3 * m, e, e + 3 * m + m * n);
 }
 
 /* Returns the number of outputs, and writes them to e unless that is NULL. */
-static size_t outputs(const nh_model *o, nh_program which, nh_ex *e)
+static size_t outputs(const nh_model *model, nh_program which, nh_ex *e)
 {
-    size_t m = o->m, n = o->n, size = m + n;
+    size_t m = model->m, n = model->n, size = m + n;
     switch (which) {
     case NH_PROGRAM_RATE:
     case NH_PROGRAM_FLOW:
-        if (e) memcpy(e, o->rho, m * sizeof *e);
-        if (e) memcpy(e + m, o->a, n * sizeof *e);
-        if (e && which == NH_PROGRAM_FLOW) with_derivatives(o, size, e, e + size);
+        if (e) memcpy(e, model->rho, m * sizeof *e);
+        if (e) memcpy(e + m, model->a, n * sizeof *e);
+        if (e && which == NH_PROGRAM_FLOW) with_derivatives(model, size, e, e + size);
         return which == NH_PROGRAM_FLOW ? size + size * size : size;
     case NH_PROGRAM_MOMENTUM:
-        if (e) momentum(o, e);
+        if (e) momentum(model, e);
         return 3 * m + m * n + 3 * m * size;
     case NH_PROGRAM_PAIR:
-        if (e) memcpy(e, o->R, m * n * sizeof *e);
-        if (e) memcpy(e + m * n, o->M, n * n * sizeof *e);
-        if (e) memcpy(e + m * n + n * n, nh_model_G(o), n * n * sizeof *e);
+        if (e) memcpy(e, model->R, m * n * sizeof *e);
+        if (e) memcpy(e + m * n, model->M, n * n * sizeof *e);
+        if (e) memcpy(e + m * n + n * n, nh_model_G(model), n * n * sizeof *e);
         return m * n + 2 * n * n;
     default:
-        if (e) with_derivatives(o, 1, &o->E, e);
-        if (e) e[size] = o->E, e[size + 1] = nh_model_gamma(o, o->E);
+        if (e) with_derivatives(model, 1, &model->E, e);
+        if (e) e[size] = model->E, e[size + 1] = nh_model_gamma(model, model->E);
         return size + 2;
     }
 }
 
 static void compile(nh_programs *s, nh_program which)
 {
-    const nh_model *o = s->model;
-    size_t count = outputs(o, which, NULL);
+    const nh_model *model = s->model;
+    size_t count = outputs(model, which, NULL);
     nh_ex *e = nh_alloc_array(count + 1, sizeof *e);
-    outputs(o, which, e);
+    outputs(model, which, e);
     program *p = &s->program[which];
-    p->tape = nh_model_tape(o, count, e);
+    p->tape = nh_model_tape(model, count, e);
     p->work = nh_tape_work_create(p->tape);
     p->out = nh_alloc_array(count + 1, sizeof *p->out);
     s->compiled++;
@@ -132,11 +133,11 @@ const nh_tape *nh_programs_tape(nh_programs *s, nh_program which)
     return s->program[which].tape;
 }
 
-double nh_programs_pace(const nh_model *o, const double *f)
+double nh_programs_pace(const nh_model *model, const double *f)
 {
     double most = 0;
-    for (size_t j = 0; j < o->m + o->n; j++) {
-        double reach = fmax(fabs(o->chart->low[1 + j]), fabs(o->chart->high[1 + j]));
+    for (size_t j = 0; j < model->m + model->n; j++) {
+        double reach = fmax(fabs(model->chart->low[1 + j]), fabs(model->chart->high[1 + j]));
         if (reach > 0 && isfinite(reach)) most = fmax(most, fabs(f[j]) / reach);
     }
     return most;

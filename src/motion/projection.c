@@ -32,22 +32,22 @@ static void measure_sizes(nh_projection *p, double t, double end, const double *
     nh_dynamics_free(d);
 }
 
-nh_projection *nh_projection_create(const nh_model *o, size_t currents, const nh_ex *current, double t, double end,
+nh_projection *nh_projection_create(const nh_model *model, size_t currents, const nh_ex *current, double t, double end,
                                     const double *z0)
 {
     nh_projection *p = nh_alloc(sizeof *p);
-    size_t size = o->m + o->n, total = currents * (1 + size), tall = currents > size ? currents : size;
-    *p = (nh_projection){.model = o, .size = size, .currents = currents};
+    size_t size = model->m + model->n, total = currents * (1 + size), tall = currents > size ? currents : size;
+    *p = (nh_projection){.model = model, .size = size, .currents = currents};
     nh_ex *e = nh_alloc_array(total + 1, sizeof *e);
     for (size_t k = 0; k < currents; k++) {
         e[k] = current[k];
         for (size_t j = 0; j < size; j++)
-            e[currents + k + j * currents] = nh_diff(o->dag, current[k], o->chart->symbol[1 + j]);
+            e[currents + k + j * currents] = nh_diff(model->dag, current[k], model->chart->symbol[1 + j]);
     }
-    p->tape = nh_model_tape(o, total, e);
+    p->tape = nh_model_tape(model, total, e);
     p->work = nh_tape_work_create(p->tape);
     nh_free(e);
-    p->point = nh_alloc_array(o->width, sizeof *p->point);
+    p->point = nh_alloc_array(model->width, sizeof *p->point);
     p->out = nh_alloc_array(total + 1, sizeof *p->out);
     p->wanted = nh_alloc_array(currents + 1, sizeof *p->wanted);
     p->scale = nh_alloc_array(size, sizeof *p->scale);
@@ -85,18 +85,18 @@ static void independent_rows(nh_projection *p, const double *point, bool *left_o
     }
 }
 
-size_t nh_projection_choose(const nh_model *o, size_t currents, const nh_ex *current, double t, double end,
+size_t nh_projection_choose(const nh_model *model, size_t currents, const nh_ex *current, double t, double end,
                             const double *z0, const char **why)
 {
-    nh_projection *p = nh_projection_create(o, currents, current, t, end, z0);
+    nh_projection *p = nh_projection_create(model, currents, current, t, end, z0);
     /* independent at some probe; omitted here */
     bool *anywhere = nh_alloc_array(2 * currents + 1, sizeof *anywhere), *out = anywhere + currents;
-    double *start = nh_alloc_array(o->width, sizeof *start);
+    double *start = nh_alloc_array(model->width, sizeof *start);
     size_t chosen = 0;
     memcpy(start, p->point, (1 + p->size) * sizeof *start);
-    for (size_t i = 0; i < o->chart->probes; i++) {
+    for (size_t i = 0; i < model->chart->probes; i++) {
         memset(out, 0, currents * sizeof *out);
-        independent_rows(p, o->chart->probe + i * o->width, out);
+        independent_rows(p, model->chart->probe + i * model->width, out);
         for (size_t k = 0; k < currents; k++) anywhere[k] |= !out[k];
     }
     memset(out, 0, currents * sizeof *out);

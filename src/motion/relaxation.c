@@ -32,22 +32,22 @@ typedef struct {
 
 const char *nh_relaxation_refused(nh_programs *s)
 {
-    const nh_model *o = nh_programs_model(s);
-    if (o->chart->implicit) return "the constraints are solved by Newton's method inside the equations of motion";
-    if (nh_depends(o->dag, o->E, o->system->t)) return "time occurs in the energy";
-    size_t size = o->m + o->n;
-    for (size_t p = 0; p < o->chart->probes; p++) {
-        const double *z = o->chart->probe + p * o->chart->width,
+    const nh_model *model = nh_programs_model(s);
+    if (model->chart->implicit) return "the constraints are solved by Newton's method inside the equations of motion";
+    if (nh_depends(model->dag, model->E, model->system->t)) return "time occurs in the energy";
+    size_t size = model->m + model->n;
+    for (size_t p = 0; p < model->chart->probes; p++) {
+        const double *z = model->chart->probe + p * model->chart->width,
                      *e = nh_programs_at(s, NH_PROGRAM_GRADIENT, z[0], z + 1),
                      *f = nh_programs_at(s, NH_PROGRAM_RATE, z[0], z + 1);
         /* relative to the terms of dE/dt, which are large near the end of a chart */
         double terms = 0, energy = fabs(e[size]);
         for (size_t j = 0; j < size; j++) terms += fabs(e[j] * f[j]), energy += fabs(e[j] * z[1 + j]);
-        terms += energy * nh_programs_pace(o, f);
+        terms += energy * nh_programs_pace(model, f);
         if (!(fabs(e[size + 1]) <= conserved * terms))
             return "the energy is not conserved: constant energy would give a wrong motion";
     }
-    return o->chart->probes ? NULL : "the energy could not be tested at any point";
+    return model->chart->probes ? NULL : "the energy could not be tested at any point";
 }
 
 /* The direction d of a step h from (t, z); false where the equations are not finite. */

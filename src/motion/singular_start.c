@@ -54,19 +54,20 @@ static void gather(nh_dag *d, nh_ex e, bool *seen, list *bases)
     }
 }
 
-void nh_singular_start_values(const nh_model *o, const nh_state *state, size_t n, const nh_ex *e, double *value)
+void nh_singular_start_values(const nh_model *model, const nh_state *state, size_t n, const nh_ex *e, double *value)
 {
-    const nh_system *y = o->system;
-    size_t m = o->m, extra = o->chart->quasi ? o->n : 0, inputs = 1 + 2 * m + extra;
+    const nh_system *system = model->system;
+    size_t m = model->m, extra = model->chart->quasi ? model->n : 0, inputs = 1 + 2 * m + extra;
     nh_ex *in = nh_alloc_array(inputs, sizeof *in);
     double *z = nh_alloc_array(inputs, sizeof *z);
-    in[0] = y->t, z[0] = state->t;
+    in[0] = system->t, z[0] = state->t;
     for (size_t s = 0; s < m; s++) {
-        in[1 + s] = y->coordinate[s].q, z[1 + s] = state->q[s];
-        in[1 + m + s] = y->coordinate[s].v, z[1 + m + s] = state->v[s];
+        in[1 + s] = system->coordinate[s].q, z[1 + s] = state->q[s];
+        in[1 + m + s] = system->coordinate[s].v, z[1 + m + s] = state->v[s];
     }
-    for (size_t i = 0; i < extra; i++) in[1 + 2 * m + i] = o->chart->w[i];
-    nh_tape *tape = nh_tape_create(o->dag, inputs, in, n, e, y->parameters, o->parameter, o->parameter_value);
+    for (size_t i = 0; i < extra; i++) in[1 + 2 * m + i] = model->chart->w[i];
+    nh_tape *tape =
+        nh_tape_create(model->dag, inputs, in, n, e, system->parameters, model->parameter, model->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     nh_tape_eval(tape, work, z, value);
     nh_tape_work_free(work);
@@ -84,13 +85,13 @@ static void values_at(const place *p, size_t n, const nh_ex *e, double *value)
 /* "x = y = 0", "t = 0": the symbols that are named, with their values. */
 static void put_values(const place *p, const bool *named, nh_text *out)
 {
-    const nh_system *y = p->model->system;
+    const nh_system *system = p->model->system;
     size_t m = p->model->m, count = 0;
     double last = NAN;
     for (size_t i = 0; i < 1 + 2 * m && count < most_named; i++) {
         if (!named[i]) continue;
         double value = i == 0 ? p->state->t : i <= m ? p->state->q[i - 1] : p->v[i - 1 - m];
-        nh_ex symbol = i == 0 ? y->t : i <= m ? y->coordinate[i - 1].q : y->coordinate[i - 1 - m].v;
+        nh_ex symbol = i == 0 ? system->t : i <= m ? system->coordinate[i - 1].q : system->coordinate[i - 1 - m].v;
         if (count++) {
             if (value == last) nh_text_addf(out, " = ");
             else nh_text_addf(out, " = %.6g, ", last);
@@ -103,11 +104,11 @@ static void put_values(const place *p, const bool *named, nh_text *out)
 
 static void name_symbols(const place *p, nh_ex e, bool *named)
 {
-    const nh_model *o = p->model;
-    named[0] = nh_depends(o->dag, e, o->system->t);
-    for (size_t s = 0; s < o->m; s++) {
-        named[1 + s] = nh_depends(o->dag, e, o->system->coordinate[s].q);
-        named[1 + o->m + s] = nh_depends(o->dag, e, o->system->coordinate[s].v);
+    const nh_model *model = p->model;
+    named[0] = nh_depends(model->dag, e, model->system->t);
+    for (size_t s = 0; s < model->m; s++) {
+        named[1 + s] = nh_depends(model->dag, e, model->system->coordinate[s].q);
+        named[1 + model->m + s] = nh_depends(model->dag, e, model->system->coordinate[s].v);
     }
 }
 
@@ -138,23 +139,23 @@ static bool shortest_zero(const place *p, const list *bases, nh_ex *which)
 
 static bool by_divisor(const place *p, bool *named, nh_text *out)
 {
-    const nh_model *o = p->model;
-    const nh_system *y = o->system;
-    size_t m = o->m, n = 0;
-    nh_ex *e = nh_alloc_array(1 + 2 * m + o->k + 1, sizeof *e), which = 0;
-    e[n++] = y->lagrangian;
-    for (size_t s = 0; s < m; s++) e[n++] = y->force[s];
-    for (size_t s = 0; s < m && y->quasi; s++) e[n++] = y->quasi_map[s];
-    for (size_t a = 0; a < o->k; a++) e[n++] = nh_constraint_without_poles(o, a);
-    bool *seen = nh_alloc_array(nh_dag_size(o->dag) + 1, sizeof *seen);
+    const nh_model *model = p->model;
+    const nh_system *system = model->system;
+    size_t m = model->m, n = 0;
+    nh_ex *e = nh_alloc_array(1 + 2 * m + model->k + 1, sizeof *e), which = 0;
+    e[n++] = system->lagrangian;
+    for (size_t s = 0; s < m; s++) e[n++] = system->force[s];
+    for (size_t s = 0; s < m && system->quasi; s++) e[n++] = system->quasi_map[s];
+    for (size_t a = 0; a < model->k; a++) e[n++] = nh_constraint_without_poles(model, a);
+    bool *seen = nh_alloc_array(nh_dag_size(model->dag) + 1, sizeof *seen);
     list bases = {0};
-    for (size_t i = 0; i < n; i++) gather(o->dag, e[i], seen, &bases);
+    for (size_t i = 0; i < n; i++) gather(model->dag, e[i], seen, &bases);
     bool found = shortest_zero(p, &bases, &which);
     if (found) {
-        char *text = nh_print_string(o->dag, which);
+        char *text = nh_print_string(model->dag, which);
         name_symbols(p, which, named);
         put_values(p, named, out);
-        bool symbol = nh_kind_of(o->dag, which) == NH_SYMBOL;
+        bool symbol = nh_kind_of(model->dag, which) == NH_SYMBOL;
         if (!symbol && strlen(text) <= most_shown) nh_text_addf(out, ": %s = 0", text);
         nh_free(text);
     }
@@ -169,9 +170,9 @@ static bool by_divisor(const place *p, bool *named, nh_text *out)
 static bool by_position(const place *p, nh_text *out)
 {
     static const double small = 1e-9;
-    const nh_system *y = p->model->system;
-    for (size_t a = 0; a < y->constraints; a++) {
-        const nh_constraint *c = &y->constraint[a];
+    const nh_system *system = p->model->system;
+    for (size_t a = 0; a < system->constraints; a++) {
+        const nh_constraint *c = &system->constraint[a];
         if (!c->position) continue;
         double value[2];
         const nh_ex e[2] = {c->level, nh_terms_moduli(p->model->dag, c->level)};
@@ -228,12 +229,12 @@ static void find_cause(const place *p, nh_bordered *b, double least, bool *named
     nh_free(z);
 }
 
-static void say_constraints(const nh_system *y, size_t k, const double *row, double part, nh_text *out)
+static void say_constraints(const nh_system *system, size_t k, const double *row, double part, nh_text *out)
 {
     size_t count = 0, last = 0;
     for (size_t a = 0; a < k; a++)
         if (fabs(row[a]) > part) count++, last = a;
-    const char *text = y->constraint[last].text;
+    const char *text = system->constraint[last].text;
     if (count == 1 && text)
         nh_text_addf(out, "the coefficients of the velocities in the constraint `%.120s` vanish", text);
     else nh_text_addf(out, "the constraints are not independent of each other there");
@@ -242,7 +243,7 @@ static void say_constraints(const nh_system *y, size_t k, const double *row, dou
 static bool by_matrix(const place *p, bool *named, nh_text *out)
 {
     static const double singular = 1e-11, takes_part = 0.3;
-    const nh_system *y = p->model->system;
+    const nh_system *system = p->model->system;
     size_t m = p->model->m, k = p->model->k;
     double *vector = nh_alloc_array(m + k, sizeof *vector), most = 0, reaction = 0;
     nh_bordered *b = nh_bordered_create(p->model);
@@ -254,11 +255,11 @@ static bool by_matrix(const place *p, bool *named, nh_text *out)
         for (size_t s = 0; s < m; s++) most = fmax(most, fabs(vector[s]));
         for (size_t a = 0; a < k; a++) reaction = fmax(reaction, fabs(vector[m + a]));
         if (out->length) nh_text_addf(out, ": ");
-        if (reaction > most) say_constraints(y, k, vector + m, takes_part * reaction, out);
+        if (reaction > most) say_constraints(system, k, vector + m, takes_part * reaction, out);
         else nh_text_addf(out, "the mass matrix is singular, without inertia in");
         for (size_t s = 0, count = 0; s < m && reaction <= most; s++)
             if (fabs(vector[s]) > takes_part * most)
-                nh_text_addf(out, "%s%s", count++ ? ", " : " ", y->coordinate[s].name);
+                nh_text_addf(out, "%s%s", count++ ? ", " : " ", system->coordinate[s].name);
     }
     nh_bordered_free(b);
     nh_free(vector);
@@ -268,29 +269,29 @@ static bool by_matrix(const place *p, bool *named, nh_text *out)
 /* ---- the message ---- */
 
 /* The angle that is the only cause. */
-static const char *angle(const nh_model *o, const bool *named)
+static const char *angle(const nh_model *model, const bool *named)
 {
     const char *name = NULL;
     size_t count = 0;
-    for (size_t i = 0; i < 1 + 2 * o->m; i++) {
+    for (size_t i = 0; i < 1 + 2 * model->m; i++) {
         if (!named[i]) continue;
         count++;
-        const nh_coordinate *c = i > 0 && i <= o->m ? &o->system->coordinate[i - 1] : NULL;
+        const nh_coordinate *c = i > 0 && i <= model->m ? &model->system->coordinate[i - 1] : NULL;
         if (c && c->type == NH_ANGLE) name = c->name;
     }
     return count == 1 ? name : NULL;
 }
 
-void nh_singular_start_explain(const nh_model *o, const nh_state *state, nh_error *error)
+void nh_singular_start_explain(const nh_model *model, const nh_state *state, nh_error *error)
 {
     if (error->code != NH_NUMERIC) return;
-    place p = {.model = o, .state = state, .v = nh_alloc_array(o->m + 1, sizeof *p.v)};
-    bool *named = nh_alloc_array(1 + 2 * o->m, sizeof *named);
-    for (size_t s = 0; s < o->m; s++) p.v[s] = state->given && !state->given[s] ? 0 : state->v[s];
+    place p = {.model = model, .state = state, .v = nh_alloc_array(model->m + 1, sizeof *p.v)};
+    bool *named = nh_alloc_array(1 + 2 * model->m, sizeof *named);
+    for (size_t s = 0; s < model->m; s++) p.v[s] = state->given && !state->given[s] ? 0 : state->v[s];
     nh_text why;
     nh_text_init(&why);
     bool surface = by_position(&p, &why), found = surface || by_divisor(&p, named, &why) || by_matrix(&p, named, &why);
-    const char *name = angle(o, named);
+    const char *name = angle(model, named);
     if (found) {
         nh_error_clear(error);
         nh_fail(error, NH_NUMERIC, "", "no motion starts from this state: %s", nh_text_string(&why));

@@ -20,7 +20,7 @@
  * breaks down have no such size. */
 static void sizes_of_states(nh_dynamics *dynamics, const nh_motion *motion, double *large)
 {
-    const nh_model *o = nh_dynamics_model(dynamics);
+    const nh_model *model = nh_dynamics_model(dynamics);
     size_t states = motion->size, count = motion->count;
     nh_flow_problem problem = nh_dynamics_problem(dynamics);
     nh_sizes sizes;
@@ -29,8 +29,8 @@ static void sizes_of_states(nh_dynamics *dynamics, const nh_motion *motion, doub
     for (size_t j = 0; j < states; j++) large[j] = known ? sizes.size[j] : 0;
     if (states == problem.size) nh_sizes_clear(&sizes);
     for (size_t i = 0; i < count * states; i++) large[i % states] = fmax(large[i % states], fabs(motion->state[i]));
-    for (size_t j = 0; j < o->m; j++) /* turns of an angle do not make it larger */
-        if (o->system->coordinate[j].type == NH_ANGLE) large[j] = fmin(large[j], 1);
+    for (size_t j = 0; j < model->m; j++) /* turns of an angle do not make it larger */
+        if (model->system->coordinate[j].type == NH_ANGLE) large[j] = fmin(large[j], 1);
 }
 
 bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t n, const nh_ex *e, double *size)
@@ -67,20 +67,20 @@ static bool point_of_scene(void *context, double t, const double *z, double *poi
 /* Is an entry of R steep that depends on kept states alone?  The others do not occur in the equations of these. */
 static bool scene_is_steep(const nh_closed_subsystem *s, nh_closed_subsystem_run *run, const nh_motion *motion)
 {
-    const nh_model *o = s->model;
-    if (o->chart->quasi || o->chart->regular || !o->k || s->smooth) return false;
-    nh_ex *e = nh_alloc_array(o->m * o->n + 1, sizeof *e);
-    double *factor = nh_alloc_array(o->m * o->n + 1, sizeof *factor);
+    const nh_model *model = s->model;
+    if (model->chart->quasi || model->chart->regular || !model->k || s->smooth) return false;
+    nh_ex *e = nh_alloc_array(model->m * model->n + 1, sizeof *e);
+    double *factor = nh_alloc_array(model->m * model->n + 1, sizeof *factor);
     size_t n = 0;
-    nh_chart_slopes(o->chart, factor);
-    for (size_t i = 0; i < o->m * o->n; i++) {
+    nh_chart_slopes(model->chart, factor);
+    for (size_t i = 0; i < model->m * model->n; i++) {
         bool known = true;
         for (size_t j = s->kept; j < s->states; j++)
-            known &= !nh_depends(o->dag, o->R[i], o->chart->symbol[1 + s->state[j]]);
-        if (known) factor[n] = factor[i], e[n++] = o->R[i];
+            known &= !nh_depends(model->dag, model->R[i], model->chart->symbol[1 + s->state[j]]);
+        if (known) factor[n] = factor[i], e[n++] = model->R[i];
     }
     double *R = nh_alloc_array(n * motion->count + 1, sizeof *R);
-    nh_along_values *entries = nh_along_values_create(o, point_of_scene, run, n, e);
+    nh_along_values *entries = nh_along_values_create(model, point_of_scene, run, n, e);
     bool any = false, good = nh_along_values_outputs(entries, motion, R);
     if (good) nh_free(nh_steep_entries(motion->count, n, R, factor, &any));
     nh_along_values_free(entries);

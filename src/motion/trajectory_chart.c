@@ -11,10 +11,10 @@
 /* largest |R| of a chart of coordinate velocities, without units: above it the formulas lose digits */
 static const double steepest = 10;
 
-bool nh_may_leave_chart(const nh_model *o)
+bool nh_may_leave_chart(const nh_model *model)
 {
-    nh_ex *inverse = nh_alloc_array(o->n + 1, sizeof *inverse);
-    bool may = o->k && (!o->chart->quasi || nh_chart_inverse(o->chart, inverse));
+    nh_ex *inverse = nh_alloc_array(model->n + 1, sizeof *inverse);
+    bool may = model->k && (!model->chart->quasi || nh_chart_inverse(model->chart, inverse));
     nh_free(inverse);
     return may;
 }
@@ -32,11 +32,12 @@ bool *nh_steep_entries(size_t count, size_t n, const double *R, const double *fa
 
 bool *nh_steep_points(nh_dynamics *dynamics, const nh_motion *motion, bool *any)
 {
-    const nh_model *o = nh_dynamics_model(dynamics);
-    size_t n = o->m * o->n;
+    const nh_model *model = nh_dynamics_model(dynamics);
+    size_t n = model->m * model->n;
     double *R = nh_alloc_array(n * (motion->count + 1) + 1, sizeof *R), *factor = R + n * motion->count;
-    nh_chart_slopes(o->chart, factor);
-    bool good = !o->chart->quasi && !o->chart->regular && o->k && nh_along(dynamics, motion, n, o->R, R),
+    nh_chart_slopes(model->chart, factor);
+    bool good =
+             !model->chart->quasi && !model->chart->regular && model->k && nh_along(dynamics, motion, n, model->R, R),
          *flag = nh_steep_entries(good ? motion->count : 0, n, R, factor, any);
     if (!good) flag = (nh_free(flag), nh_alloc_array(motion->count + 1, sizeof *flag));
     nh_free(R);
@@ -66,9 +67,9 @@ nh_motion *nh_motion_everywhere(nh_dynamics *dynamics, const nh_method *method, 
                                 const double *times, const nh_flow_options *given, char *machine,
                                 const nh_method **used, nh_error *error)
 {
-    const nh_model *o = nh_dynamics_model(dynamics);
-    size_t m = o->m;
-    nh_bordered *b = nh_bordered_create(o);
+    const nh_model *model = nh_dynamics_model(dynamics);
+    size_t m = model->m;
+    nh_bordered *b = nh_bordered_create(model);
     nh_bordered_jit(b, nh_dynamics_patience(dynamics));
     nh_flow_problem problem = nh_bordered_flow(b);
     nh_flow_options options = *given;

@@ -10,9 +10,9 @@ static const double farthest = 3; /* s.s: a turn by 240 degrees */
 
 static double square_of(const double *s) { return s[0] * s[0] + s[1] * s[1] + s[2] * s[2]; }
 
-void nh_turns_guard(const nh_system *y, const double *q, double *value)
+void nh_turns_guard(const nh_system *system, const double *q, double *value)
 {
-    for (size_t i = 0; i < y->orientations; i++) value[i] = farthest - square_of(q + y->orientation[i].first);
+    for (size_t i = 0; i < system->orientations; i++) value[i] = farthest - square_of(q + system->orientation[i].first);
 }
 
 /* s := -s/(s.s), and its rate. */
@@ -23,11 +23,11 @@ static void to_shadow(double *s, double *rate)
     for (int k = 0; k < 3; k++) s[k] /= -square;
 }
 
-bool nh_turns_renew(const nh_system *y, double *q, double *v)
+bool nh_turns_renew(const nh_system *system, double *q, double *v)
 {
     bool any = false;
-    for (size_t i = 0; i < y->orientations; i++) {
-        size_t first = y->orientation[i].first;
+    for (size_t i = 0; i < system->orientations; i++) {
+        size_t first = system->orientation[i].first;
         if (!(square_of(q + first) >= farthest)) continue;
         to_shadow(q + first, v ? v + first : NULL);
         any = true;
@@ -35,10 +35,10 @@ bool nh_turns_renew(const nh_system *y, double *q, double *v)
     return any;
 }
 
-void nh_turns_nearest(const nh_system *y, const double *to, double *q, double *v)
+void nh_turns_nearest(const nh_system *system, const double *to, double *q, double *v)
 {
-    for (size_t i = 0; i < y->orientations; i++) {
-        size_t first = y->orientation[i].first;
+    for (size_t i = 0; i < system->orientations; i++) {
+        size_t first = system->orientation[i].first;
         double *s = q + first, square = square_of(s), here[3], there[3];
         for (size_t k = 0; k < 3; k++) {
             here[k] = s[k] - to[first + k];

@@ -53,8 +53,8 @@ typedef struct {
 
 static sizes_of_all measure_sizes(run *r, const nh_motion *motion)
 {
-    const nh_model *o = r->model;
-    size_t m = o->m;
+    const nh_model *model = r->model;
+    size_t m = model->m;
     sizes_of_all all = {.state = nh_alloc_array(4 * m + 1, sizeof(double))};
     double *momentum = all.state + 3 * m;
     all.force = all.state + 2 * m;
@@ -62,9 +62,9 @@ static sizes_of_all measure_sizes(run *r, const nh_motion *motion)
     nh_sizes sizes;
     bool known = nh_sizes_begin(&sizes, &problem, 1, r->z0, r->times[0], r->times[r->outputs - 1]);
     double tau = known ? sizes.tau : fabs(r->times[r->outputs - 1] - r->times[0]);
-    nh_trajectory_sizes(r->dynamics, motion, m, o->rho, all.state + m);
-    nh_trajectory_sizes(r->dynamics, motion, m, o->reaction, all.force);
-    nh_trajectory_sizes(r->dynamics, motion, m, o->p, momentum);
+    nh_trajectory_sizes(r->dynamics, motion, m, model->rho, all.state + m);
+    nh_trajectory_sizes(r->dynamics, motion, m, model->reaction, all.force);
+    nh_trajectory_sizes(r->dynamics, motion, m, model->p, momentum);
     for (size_t s = 0; s < m; s++) {
         double q = fmax(sizes.size[s], tau * all.state[m + s]);
         for (size_t i = 0; i < motion->count; i++) q = fmax(q, fabs(motion->state[i * motion->size + s]));
@@ -81,17 +81,17 @@ static double beside(double difference, double size) { return difference != 0 ? 
 static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, const nh_chetaev_motion *full,
                     const sizes_of_all *sizes)
 {
-    const nh_model *o = r->model;
+    const nh_model *model = r->model;
     nh_validation *v = r->out;
-    size_t m = o->m, count = full->motion->count;
+    size_t m = model->m, count = full->motion->count;
     if (reduced->count < count) count = reduced->count;
     nh_motion head = *reduced;
     head.count = count;
     double *velocity = nh_alloc_array(count * m + 1, sizeof *velocity),
            *reaction = nh_alloc_array(count * m + 1, sizeof *reaction);
     double *force = nh_alloc_array(m + 1, sizeof *force);
-    bool good =
-        nh_along(r->dynamics, &head, m, o->rho, velocity) && nh_along(r->dynamics, &head, m, o->reaction, reaction);
+    bool good = nh_along(r->dynamics, &head, m, model->rho, velocity) &&
+                nh_along(r->dynamics, &head, m, model->reaction, reaction);
     for (size_t i = 0; i < count && good; i++) {
         const double *z = reduced->state + i * reduced->size, *y = full->motion->state + i * full->motion->size;
         bool forced = nh_bordered_force(bordered, full->motion->time[i], y, y + m, y + 2 * m, force);
@@ -111,17 +111,17 @@ static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, con
 
 static void multiplier_form(run *r, const nh_state *initial, const nh_motion *reduced, const sizes_of_all *sizes)
 {
-    const nh_model *o = r->model;
+    const nh_model *model = r->model;
     nh_validation *v = r->out;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_bordered *b = nh_bordered_create(o);
+    nh_bordered *b = nh_bordered_create(model);
     nh_chetaev_problem problem = nh_bordered_problem(b);
-    double *y = nh_alloc_array(2 * o->m, sizeof *y);
-    memcpy(y, initial->q, o->m * sizeof *y);
+    double *y = nh_alloc_array(2 * model->m, sizeof *y);
+    memcpy(y, initial->q, model->m * sizeof *y);
     nh_motion first = *reduced;
     first.count = 1;
-    bool good = nh_along(r->dynamics, &first, o->m, o->rho, y + o->m);
+    bool good = nh_along(r->dynamics, &first, model->m, model->rho, y + model->m);
     /* this only confirms a motion: near a pole of the coordinates it may need millions of steps */
     double enough = fmin(20000, 2000 + 20 * (double)reduced->steps);
     nh_flow_options options = {.rtol = v->tolerance[NH_DRIFT_RUNS - 1],
@@ -215,14 +215,14 @@ static void multistep(run *r, const nh_motion *motion, const sizes_of_all *sizes
 /* det d(independent coordinate velocities)/dw changes sign where the coordinate chart breaks down. */
 static void watch_pivot(run *r, const nh_model *other, const nh_motion *motion)
 {
-    const nh_model *o = r->model;
-    size_t n = o->n, row = 0;
-    if (!other || other->chart->quasi || !o->chart->quasi) return;
+    const nh_model *model = r->model;
+    size_t n = model->n, row = 0;
+    if (!other || other->chart->quasi || !model->chart->quasi) return;
     nh_ex *e = nh_alloc_array(n * n + 1, sizeof *e);
-    for (size_t s = 0; s < o->m; s++)
+    for (size_t s = 0; s < model->m; s++)
         for (size_t i = 0; i < n; i++)
-            if (other->chart->w[i] == o->system->coordinate[s].v) {
-                for (size_t j = 0; j < n; j++) e[row + j * n] = o->R[s * n + j];
+            if (other->chart->w[i] == model->system->coordinate[s].v) {
+                for (size_t j = 0; j < n; j++) e[row + j * n] = model->R[s * n + j];
                 row++;
             }
     double *value = nh_alloc_array(motion->count * n * n + 1, sizeof *value), last = 0;
@@ -293,15 +293,15 @@ static void smallest_model(run *r, const nh_state *initial, const nh_motion *mot
 static void keep(run *r, const nh_state *initial, const nh_motion *motion)
 {
     nh_validation *v = r->out;
-    const nh_model *o = r->model;
+    const nh_model *model = r->model;
     v->count = motion->count;
     v->size = motion->size;
     v->time = nh_arena_alloc(v->arena, motion->count * sizeof *v->time);
     v->state = nh_arena_alloc(v->arena, motion->count * motion->size * sizeof *v->state);
-    v->multiplier = nh_arena_alloc(v->arena, (motion->count * o->k + 1) * sizeof *v->multiplier);
+    v->multiplier = nh_arena_alloc(v->arena, (motion->count * model->k + 1) * sizeof *v->multiplier);
     memcpy(v->time, motion->time, motion->count * sizeof *v->time);
     memcpy(v->state, motion->state, motion->count * motion->size * sizeof *v->state);
-    if (o->k) nh_along(r->dynamics, motion, o->k, o->mu, v->multiplier);
+    if (model->k) nh_along(r->dynamics, motion, model->k, model->mu, v->multiplier);
     v->watches = r->watches;
     v->watch_name = nh_arena_alloc(v->arena, (r->watches + 1) * sizeof *v->watch_name);
     v->watch = nh_arena_alloc(v->arena, (r->watches * motion->count + 1) * sizeof *v->watch);
@@ -366,16 +366,16 @@ static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
  * expressions.  False: no motion can be computed. */
 static bool choose(run *r, const nh_validation_request *q, double *tolerance, nh_error *error)
 {
-    const nh_model *o = q->model;
-    size_t states = o->m + o->n, n = states + q->watches;
+    const nh_model *model = q->model;
+    size_t states = model->m + model->n, n = states + q->watches;
     nh_ex *e = nh_alloc_array(n + 1, sizeof *e);
-    memcpy(e, o->chart->symbol + 1, states * sizeof *e);
+    memcpy(e, model->chart->symbol + 1, states * sizeof *e);
     bool *by_terms = nh_alloc_array(n + 1, sizeof *by_terms);
     for (size_t i = 0; i < q->watches; i++) {
         e[states + i] = q->watch[i].value;
         by_terms[states + i] = q->watch[i].by_terms;
     }
-    nh_trajectory_request request = {.model = o,
+    nh_trajectory_request request = {.model = model,
                                      .initial = q->initial,
                                      .count = q->outputs,
                                      .times = r->times,
@@ -391,7 +391,7 @@ static bool choose(run *r, const nh_validation_request *q, double *tolerance, nh
     size_t k = a->quantity, used = strlen(a->why);
     if (!a->held)
         snprintf(a->why + used, sizeof a->why - used, "; `%s` is the least certain",
-                 k < states ? nh_name_of(o->dag, e[k]) : q->watch[k - states].name);
+                 k < states ? nh_name_of(model->dag, e[k]) : q->watch[k - states].name);
     nh_free(e);
     r->method = nh_method_find(t->method);
     r->out->checked = true;
@@ -404,19 +404,19 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
 {
     nh_arena *arena = nh_arena_create();
     nh_validation *v = nh_arena_alloc(arena, sizeof *v);
-    const nh_model *o = q->model;
-    size_t size = o->m + o->n;
+    const nh_model *model = q->model;
+    size_t size = model->m + model->n;
     double tolerance = q->options->tolerance;
     *v = (nh_validation){.arena = arena,
                          .multiplier_method = "IDA, index 1",
-                         .chart = nh_arena_strdup(arena, o->chart->name),
+                         .chart = nh_arena_strdup(arena, model->chart->name),
                          .begin = q->initial->t,
                          .end = q->until,
                          .currents = q->currents,
                          .current = nh_arena_alloc(arena, (q->currents + 1) * sizeof *v->current),
                          .crossing = NAN};
-    run r = {.model = o,
-             .dynamics = nh_dynamics_create(o),
+    run r = {.model = model,
+             .dynamics = nh_dynamics_create(model),
              .out = v,
              .options = q->options,
              .outputs = q->outputs,
@@ -427,12 +427,12 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
              .current = q->current};
     r.times = nh_alloc_array(q->outputs + 1, sizeof *r.times);
     r.z0 = nh_alloc_array(size + 1, sizeof *r.z0);
-    r.y0 = nh_alloc_array(2 * o->m + 1, sizeof *r.y0);
+    r.y0 = nh_alloc_array(2 * model->m + 1, sizeof *r.y0);
     for (size_t i = 0; i < q->outputs; i++)
         r.times[i] = q->initial->t + (q->until - q->initial->t) * (double)i / (double)(q->outputs - 1);
-    bool good = nh_dynamics_start_all(r.dynamics, q->initial, false, r.z0, r.y0 + o->m, error);
-    memcpy(r.y0, r.z0, o->m * sizeof *r.y0);
-    r.everywhere = good && !nh_dynamics_holds(r.dynamics, q->initial->t, r.z0, r.y0 + o->m);
+    bool good = nh_dynamics_start_all(r.dynamics, q->initial, false, r.z0, r.y0 + model->m, error);
+    memcpy(r.y0, r.z0, model->m * sizeof *r.y0);
+    r.everywhere = good && !nh_dynamics_holds(r.dynamics, q->initial->t, r.z0, r.y0 + model->m);
     good = good && (!(q->accuracy > 0) || choose(&r, q, &tolerance, error));
     for (size_t i = 0; i < NH_DRIFT_RUNS; i++)
         v->tolerance[i] = fmin(1e-3, tolerance * pow(100, (double)(NH_DRIFT_RUNS - 1 - i)));
@@ -443,7 +443,7 @@ nh_validation *nh_validate(const nh_validation_request *q, nh_error *error)
     nh_free(r.z0);
     nh_free(r.y0);
     if (good) return v;
-    nh_singular_start_explain(o, q->initial, error);
+    nh_singular_start_explain(model, q->initial, error);
     nh_validation_free(v);
     return NULL;
 }

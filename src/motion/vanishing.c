@@ -29,11 +29,11 @@ struct nh_vanishing {
 /* Every row with its terms, for the tape. */
 static void make_tape(nh_vanishing *v, const nh_ex *e)
 {
-    const nh_model *o = v->model;
+    const nh_model *model = v->model;
     nh_ex **terms = nh_alloc_array(v->rows + 1, sizeof *terms);
     for (size_t i = 0; i < v->rows; i++) {
-        nh_ex row = i < o->m ? o->rho[i] : i < v->states ? o->a[i - o->m] : e[i - v->states];
-        v->first[i + 1] = v->first[i] + nh_terms_of(o->dag, row, &terms[i]);
+        nh_ex row = i < model->m ? model->rho[i] : i < v->states ? model->a[i - model->m] : e[i - v->states];
+        v->first[i + 1] = v->first[i] + nh_terms_of(model->dag, row, &terms[i]);
     }
     v->outputs = v->first[v->rows];
     nh_ex *all = nh_alloc_array(v->outputs + 1, sizeof *all);
@@ -41,22 +41,25 @@ static void make_tape(nh_vanishing *v, const nh_ex *e)
         memcpy(all + v->first[i], terms[i], (v->first[i + 1] - v->first[i]) * sizeof *all);
         nh_free(terms[i]);
     }
-    v->tape = nh_model_tape(o, v->outputs, all);
+    v->tape = nh_model_tape(model, v->outputs, all);
     v->work = nh_tape_work_create(v->tape);
     nh_free(all);
     nh_free(terms);
 }
 
-nh_vanishing *nh_vanishing_create(const nh_model *o, size_t n, const nh_ex *e)
+nh_vanishing *nh_vanishing_create(const nh_model *model, size_t n, const nh_ex *e)
 {
     nh_vanishing *v = nh_alloc(sizeof *v);
-    *v = (nh_vanishing){.model = o, .dynamics = nh_dynamics_create(o), .states = o->m + o->n, .rows = o->m + o->n + n};
+    *v = (nh_vanishing){.model = model,
+                        .dynamics = nh_dynamics_create(model),
+                        .states = model->m + model->n,
+                        .rows = model->m + model->n + n};
     v->first = nh_alloc_array(v->rows + 1, sizeof *v->first);
     make_tape(v, e);
-    v->z = nh_alloc_array(2 * v->states + o->width + 2 * v->outputs + 2 * v->rows, sizeof *v->z);
+    v->z = nh_alloc_array(2 * v->states + model->width + 2 * v->outputs + 2 * v->rows, sizeof *v->z);
     v->moved = v->z + v->states;
     v->point = v->moved + v->states;
-    v->value = v->point + o->width;
+    v->value = v->point + model->width;
     v->other = v->value + v->outputs;
     v->rounding = v->other + v->outputs;
     v->coarse = v->rounding + v->rows;

@@ -138,24 +138,24 @@ void nh_analysis_file_free(nh_analysis_file *analysis)
 
 /* ---- expressions of the chart ---- */
 
-bool nh_analysis_file_to_chart(const nh_model *o, nh_ex e, nh_ex *out, nh_error *error)
+bool nh_analysis_file_to_chart(const nh_model *model, nh_ex e, nh_ex *out, nh_error *error)
 {
-    nh_system *s = o->system;
+    nh_system *system = model->system;
     bool quasi_used = false;
-    for (size_t i = 0; i < s->quasi; i++) quasi_used |= nh_depends(s->dag, e, s->quasi_velocity[i]);
-    if (quasi_used && !o->chart->quasi) {
-        nh_chart *chart = nh_chart_create(s, NH_CHART_QUASI, 1, error);
+    for (size_t i = 0; i < system->quasi; i++) quasi_used |= nh_depends(system->dag, e, system->quasi_velocity[i]);
+    if (quasi_used && !model->chart->quasi) {
+        nh_chart *chart = nh_chart_create(system, NH_CHART_QUASI, 1, error);
         if (!chart) return false;
-        nh_ex *w = nh_alloc_array(s->quasi + 1, sizeof *w);
+        nh_ex *w = nh_alloc_array(system->quasi + 1, sizeof *w);
         bool good = nh_chart_inverse(chart, w);
-        if (good) e = nh_substitute(s->dag, e, s->quasi, s->quasi_velocity, w);
+        if (good) e = nh_substitute(system->dag, e, system->quasi, system->quasi_velocity, w);
         nh_free(w);
         nh_chart_free(chart);
         if (!good)
             return nh_fail(error, NH_NUMERIC, "",
                            "quasi-velocities that depend nonlinearly on the velocities cannot be used in this chart");
     }
-    *out = nh_model_compose(o, e);
+    *out = nh_model_compose(model, e);
     return true;
 }
 
@@ -189,7 +189,7 @@ bool nh_analysis_file_parse(reader *r, const nh_deck_node *node, nh_ex *out)
 static bool name_is_free(reader *r, const nh_deck_node *node, const char *name)
 {
     const nh_deck *deck = r->a->deck;
-    const nh_system *s = r->model->system;
+    const nh_system *system = r->model->system;
     nh_ex taken;
     if (!nh_is_name(name)) {
         nh_deck_fail(deck, node, 0, r->error, "`%s` is not a name", name);
@@ -207,7 +207,7 @@ static bool name_is_free(reader *r, const nh_deck_node *node, const char *name)
                                 name);
     size_t function;
     bool used = nh_symbol_find(r->model->dag, name, &taken) || nh_declared_find(r->model->dag, name, &function);
-    for (size_t i = 0; i < s->definitions; i++) used |= !strcmp(s->definition[i].name, name);
+    for (size_t i = 0; i < system->definitions; i++) used |= !strcmp(system->definition[i].name, name);
     return !used || nh_deck_fail(deck, node, 0, r->error, "`%s` is already a name of the system", name);
 }
 

@@ -57,19 +57,19 @@ static bool read_samples(reader *r, const nh_deck_node *list, nh_figure_request 
 static bool read_vary(reader *r, const nh_deck_node *map, nh_figure_request *f)
 {
     const nh_deck *deck = r->a->deck;
-    const nh_system *s = r->model->system;
+    const nh_system *system = r->model->system;
     bool known = false;
     if (!map) return true;
     if (!nh_deck_is(deck, map, NH_DECK_MAP, "vary {parameter: [values]}", r->error)) return false;
     if (map->count != 1)
         return nh_deck_fail(deck, map, 0, r->error, "one parameter can be varied in a figure, found %zu", map->count);
     f->vary = map->key[0]->text;
-    for (size_t i = 0; i < s->parameters; i++) known |= !strcmp(f->vary, s->parameter[i].name);
+    for (size_t i = 0; i < system->parameters; i++) known |= !strcmp(f->vary, system->parameter[i].name);
     if (!known) {
-        nh_deck_fail(deck, map->key[0], 0, r->error, "`%s` is not a parameter of %s", f->vary, s->name);
-        return s->parameters
+        nh_deck_fail(deck, map->key[0], 0, r->error, "`%s` is not a parameter of %s", f->vary, system->name);
+        return system->parameters
                    ? nh_error_hint(r->error, "vary: {%s: [1, 2]} repeats the motion for two values of a parameter",
-                                   s->parameter[0].name)
+                                   system->parameter[0].name)
                    : false;
     }
     const nh_deck_node *list = map->item[0];

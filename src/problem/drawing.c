@@ -401,23 +401,23 @@ static void dials(drawing *w, size_t angles, const size_t *angle, const nh_ex *a
 
 static const char *from_coordinates(drawing *w)
 {
-    const nh_system *s = w->s;
-    const nh_coordinate *c = s->coordinate;
-    size_t *length = nh_arena_alloc(w->arena, (s->coordinates + 1) * sizeof *length), lengths = 0;
-    size_t *angle = nh_arena_alloc(w->arena, (s->coordinates + 1) * sizeof *angle), angles = 0;
+    const nh_system *system = w->s;
+    const nh_coordinate *c = system->coordinate;
+    size_t *length = nh_arena_alloc(w->arena, (system->coordinates + 1) * sizeof *length), lengths = 0;
+    size_t *angle = nh_arena_alloc(w->arena, (system->coordinates + 1) * sizeof *angle), angles = 0;
     const char *words = polar_points(w);
     if (words) return words;
-    for (size_t i = 0; i < s->coordinates; i++)
+    for (size_t i = 0; i < system->coordinates; i++)
         if (turns(w, i)) angle[angles++] = i;
         else length[lengths++] = i;
-    if (angles && lengths < 2 && (words = pendulums(w, lengths ? length[0] : s->coordinates, angles, angle)))
+    if (angles && lengths < 2 && (words = pendulums(w, lengths ? length[0] : system->coordinates, angles, angle)))
         return words;
     if (lengths == 0) {
         dials(w, angles, angle, NULL);
         return angles == 1 ? "the angle as a hand" : "each angle as the hand of a separate dial, in order";
     }
     if (lengths == 1) {
-        point(w, c[length[0]].q, nh_int(s->dag, 0));
+        point(w, c[length[0]].q, nh_int(system->dag, 0));
         dials(w, angles, angle, &c[length[0]].q);
         return nh_arena_printf(w->arena, "%s along a line%s", c[length[0]].name,
                                angles ? ", each angle as a hand there" : "");

@@ -23,23 +23,24 @@ void nh_observables_add(nh_observables *t, const char *name, nh_track_kind kind,
 }
 
 /* Of a coordinate: beside angular velocities it is listed already. */
-static bool is_velocity(const nh_system *s, nh_ex w)
+static bool is_velocity(const nh_system *system, nh_ex w)
 {
-    for (size_t i = 0; i < s->coordinates; i++)
-        if (s->coordinate[i].v == w) return true;
+    for (size_t i = 0; i < system->coordinates; i++)
+        if (system->coordinate[i].v == w) return true;
     return false;
 }
 
 void nh_observables_add_states(nh_observables *t)
 {
-    const nh_model *o = t->model;
-    const nh_system *s = o->system;
-    for (size_t i = 0; i < o->m; i++) nh_observables_add(t, s->coordinate[i].name, NH_TRACK_STATE, s->coordinate[i].q);
-    for (size_t i = 0; i < o->m; i++)
-        nh_observables_add(t, nh_name_of(o->dag, s->coordinate[i].v), NH_TRACK_STATE, o->rho[i]);
-    for (size_t i = 0; i < o->n && o->chart->quasi; i++)
-        if (!is_velocity(s, o->chart->w[i]))
-            nh_observables_add(t, nh_name_of(o->dag, o->chart->w[i]), NH_TRACK_STATE, o->chart->w[i]);
+    const nh_model *model = t->model;
+    const nh_system *system = model->system;
+    for (size_t i = 0; i < model->m; i++)
+        nh_observables_add(t, system->coordinate[i].name, NH_TRACK_STATE, system->coordinate[i].q);
+    for (size_t i = 0; i < model->m; i++)
+        nh_observables_add(t, nh_name_of(model->dag, system->coordinate[i].v), NH_TRACK_STATE, model->rho[i]);
+    for (size_t i = 0; i < model->n && model->chart->quasi; i++)
+        if (!is_velocity(system, model->chart->w[i]))
+            nh_observables_add(t, nh_name_of(model->dag, model->chart->w[i]), NH_TRACK_STATE, model->chart->w[i]);
 }
 
 void nh_observables_add_watches(nh_observables *t, const nh_analysis_file *a)
@@ -50,17 +51,17 @@ void nh_observables_add_watches(nh_observables *t, const nh_analysis_file *a)
 
 void nh_observables_add_drawing(nh_observables *t, const nh_analysis_file *a)
 {
-    const nh_system *s = t->model->system;
+    const nh_system *system = t->model->system;
     if (a && a->shapes) {
         t->shape = a->shape;
         t->shapes = a->shapes;
         t->drawing = "as in the analysis file";
-    } else if (s->shapes) {
-        t->shape = s->shape;
-        t->shapes = s->shapes;
+    } else if (system->shapes) {
+        t->shape = system->shape;
+        t->shapes = system->shapes;
         t->drawing = "as in the system file";
     } else {
-        t->drawing = nh_drawing_choose(t->arena, s, &t->shapes, &t->shape);
+        t->drawing = nh_drawing_choose(t->arena, system, &t->shapes, &t->shape);
     }
     for (size_t i = 0; i < t->shapes; i++)
         for (size_t j = 0; j < nh_shape_numbers(t->shape[i].kind); j++)

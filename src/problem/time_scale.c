@@ -12,21 +12,27 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static double half_width(const nh_model *o, size_t s) { return (o->chart->high[1 + s] - o->chart->low[1 + s]) / 2; }
+static double half_width(const nh_model *model, size_t s)
+{
+    return (model->chart->high[1 + s] - model->chart->low[1 + s]) / 2;
+}
 
 /* The unit of the coordinate whose velocity w^i is; 1 for quasi-velocities. */
-static double length_of(const nh_model *o, size_t i) { return o->chart->quasi ? 1 : half_width(o, o->chart->free[i]); }
+static double length_of(const nh_model *model, size_t i)
+{
+    return model->chart->quasi ? 1 : half_width(model, model->chart->free[i]);
+}
 
 /* The accelerations at probe p, its velocities multiplied by `part`. */
-static bool accelerations(const nh_model *o, nh_tape *tape, nh_tape_work *work, size_t p, double part, double *z,
+static bool accelerations(const nh_model *model, nh_tape *tape, nh_tape_work *work, size_t p, double part, double *z,
                           double *out)
 {
-    const nh_chart *c = o->chart;
+    const nh_chart *c = model->chart;
     memcpy(z, c->probe + p * c->width, c->width * sizeof *z);
-    for (size_t i = 0; i < o->n; i++) z[1 + o->m + i] *= part;
+    for (size_t i = 0; i < model->n; i++) z[1 + model->m + i] *= part;
     if (!nh_chart_complete(c, z)) return false;
     nh_tape_eval(tape, work, z, out);
-    for (size_t i = 0; i < o->n; i++)
+    for (size_t i = 0; i < model->n; i++)
         if (!isfinite(out[i])) return false;
     return true;
 }
@@ -39,15 +45,16 @@ static double median(size_t count, double *list)
 
 /* The change of the accelerations at probe p, in lengths, when `part` of its velocities is reversed, and the largest of
  * these velocities. */
-static bool turned_round(const nh_model *o, nh_tape *tape, nh_tape_work *work, size_t p, double part, double *z,
+static bool turned_round(const nh_model *model, nh_tape *tape, nh_tape_work *work, size_t p, double part, double *z,
                          double *out, double *change, double *speed)
 {
     *change = *speed = 0;
-    if (!accelerations(o, tape, work, p, -part, z, out) || !accelerations(o, tape, work, p, part, z, out + o->n))
+    if (!accelerations(model, tape, work, p, -part, z, out) ||
+        !accelerations(model, tape, work, p, part, z, out + model->n))
         return false;
-    for (size_t i = 0; i < o->n; i++) {
-        *change = fmax(*change, fabs(out[o->n + i] - out[i]) / (2 * length_of(o, i)));
-        *speed = fmax(*speed, fabs(z[1 + o->m + i]) / length_of(o, i));
+    for (size_t i = 0; i < model->n; i++) {
+        *change = fmax(*change, fabs(out[model->n + i] - out[i]) / (2 * length_of(model, i)));
+        *speed = fmax(*speed, fabs(z[1 + model->m + i]) / length_of(model, i));
     }
     return true;
 }
@@ -55,26 +62,27 @@ static bool turned_round(const nh_model *o, nh_tape *tape, nh_tape_work *work, s
 /* Accelerations at rest, and the change by small velocities, which gyroscopic forces and friction multiply by a rate.
  * Terms that depend on the direction of the velocities alone (dry friction, multipliers of homogeneous constraints)
  * give no rate: they do not become smaller with the velocities. */
-static double omega(const nh_model *o)
+static double omega(const nh_model *model)
 {
     static const double small = 1e-3;
-    const nh_chart *c = o->chart;
-    size_t n = o->n, rest = 0, slow = 0;
-    nh_tape *tape = nh_model_tape(o, n, o->a);
+    const nh_chart *c = model->chart;
+    size_t n = model->n, rest = 0, slow = 0;
+    nh_tape *tape = nh_model_tape(model, n, model->a);
     nh_tape_work *work = nh_tape_work_create(tape);
     double *z = nh_alloc_array(c->width, sizeof *z), *out = nh_alloc_array(2 * n + 1, sizeof *out), most = 0;
     double *a = nh_alloc_array((n + 1) * c->probes + 1, sizeof *a), *rate = a + n * c->probes;
     for (size_t p = 0; p < c->probes; p++) {
         double change, speed, half_change, half_speed;
-        if (accelerations(o, tape, work, p, 0, z, out)) {
+        if (accelerations(model, tape, work, p, 0, z, out)) {
             for (size_t i = 0; i < n; i++) a[i * c->probes + rest] = fabs(out[i]);
             rest++;
         }
-        if (turned_round(o, tape, work, p, small, z, out, &change, &speed) && speed > 0 &&
-            turned_round(o, tape, work, p, small / 2, z, out, &half_change, &half_speed))
+        if (turned_round(model, tape, work, p, small, z, out, &change, &speed) && speed > 0 &&
+            turned_round(model, tape, work, p, small / 2, z, out, &half_change, &half_speed))
             rate[slow++] = fmax(0, change - half_change) / (speed - half_speed);
     }
-    for (size_t i = 0; i < n && rest; i++) most = fmax(most, sqrt(median(rest, a + i * c->probes) / length_of(o, i)));
+    for (size_t i = 0; i < n && rest; i++)
+        most = fmax(most, sqrt(median(rest, a + i * c->probes) / length_of(model, i)));
     if (slow) most = fmax(most, median(slow, rate));
     nh_free(out);
     nh_free(a);
@@ -84,45 +92,47 @@ static double omega(const nh_model *o)
     return isfinite(most) ? most : 0;
 }
 
-static void add(nh_system *s, nh_ex symbol, double low, double high)
+static void add(nh_system *system, nh_ex symbol, double low, double high)
 {
-    for (size_t i = 0; i < s->intervals; i++)
-        if (s->interval[i].symbol == symbol) return;
-    s->interval[s->intervals++] = (nh_interval){symbol, low, high};
+    for (size_t i = 0; i < system->intervals; i++)
+        if (system->interval[i].symbol == symbol) return;
+    system->interval[system->intervals++] = (nh_interval){symbol, low, high};
 }
 
 /* Room for intervals of all that may get one. */
-static void make_room(nh_system *s)
+static void make_room(nh_system *system)
 {
-    nh_interval *list = nh_arena_alloc(s->arena, (s->intervals + 1 + s->coordinates + s->quasi) * sizeof *list);
-    if (s->intervals) memcpy(list, s->interval, s->intervals * sizeof *list);
-    s->interval = list;
+    nh_interval *list =
+        nh_arena_alloc(system->arena, (system->intervals + 1 + system->coordinates + system->quasi) * sizeof *list);
+    if (system->intervals) memcpy(list, system->interval, system->intervals * sizeof *list);
+    system->interval = list;
 }
 
-static void scale_velocities(nh_system *s, const nh_model *o, double factor)
+static void scale_velocities(nh_system *system, const nh_model *model, double factor)
 {
-    for (size_t i = 0; i < o->m; i++) {
-        double most = velocity * half_width(o, i) * factor;
-        add(s, s->coordinate[i].v, -most, most);
+    for (size_t i = 0; i < model->m; i++) {
+        double most = velocity * half_width(model, i) * factor;
+        add(system, system->coordinate[i].v, -most, most);
     }
-    for (size_t i = 0; i < s->quasi; i++) add(s, s->quasi_velocity[i], -velocity * factor, velocity * factor);
+    for (size_t i = 0; i < system->quasi; i++)
+        add(system, system->quasi_velocity[i], -velocity * factor, velocity * factor);
 }
 
-double nh_time_scale_set(nh_system *s, const nh_model *o)
+double nh_time_scale_set(nh_system *system, const nh_model *model)
 {
-    double Omega = omega(o), longest = 1;
-    for (size_t i = 0; i < o->m; i++) longest = fmax(longest, half_width(o, i));
+    double Omega = omega(model), longest = 1;
+    for (size_t i = 0; i < model->m; i++) longest = fmax(longest, half_width(model, i));
     if (!(Omega * longest > fast)) return 1;
-    make_room(s);
-    add(s, s->t, 0, 1 / Omega);
-    scale_velocities(s, o, Omega);
+    make_room(system);
+    add(system, system->t, 0, 1 / Omega);
+    scale_velocities(system, model, Omega);
     return Omega;
 }
 
-bool nh_time_scale_velocities(nh_system *s, const nh_model *o, double factor)
+bool nh_time_scale_velocities(nh_system *system, const nh_model *model, double factor)
 {
-    size_t before = s->intervals;
-    make_room(s);
-    scale_velocities(s, o, factor);
-    return s->intervals > before;
+    size_t before = system->intervals;
+    make_room(system);
+    scale_velocities(system, model, factor);
+    return system->intervals > before;
 }

@@ -120,19 +120,20 @@ static double size_at(size_t count, const size_t *at, const double *value)
  * columns of `null` in reduced echelon form.  Returns its dimension. */
 static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double *null)
 {
-    const nh_system *s = w->system;
-    size_t m = s->coordinates, width = 1 + 2 * m, total = states * rows, *at = nh_alloc_array(rows * n + 1, sizeof *at);
-    nh_ex *all = with_terms(s->dag, rows * n, e, at);
+    const nh_system *system = w->system;
+    size_t m = system->coordinates, width = 1 + 2 * m, total = states * rows,
+           *at = nh_alloc_array(rows * n + 1, sizeof *at);
+    nh_ex *all = with_terms(system->dag, rows * n, e, at);
     const nh_ex *symbols;
     const double *values;
     nh_ex *in = nh_alloc_array(width, sizeof *in);
     double *point = nh_alloc_array(width + at[rows * n] + total * n + 2 * (total + n) + n * n, sizeof *point),
            *value = point + width, *a = value + at[rows * n];
     double *singular = a + total * n, *vt = singular + total + n;
-    in[0] = s->t;
-    for (size_t i = 0; i < m; i++) in[1 + i] = s->coordinate[i].q, in[1 + m + i] = s->coordinate[i].v;
-    nh_system_bindings(s, &symbols, &values);
-    nh_tape *tape = nh_tape_create(s->dag, width, in, at[rows * n], all, s->parameters, symbols, values);
+    in[0] = system->t;
+    for (size_t i = 0; i < m; i++) in[1 + i] = system->coordinate[i].q, in[1 + m + i] = system->coordinate[i].v;
+    nh_system_bindings(system, &symbols, &values);
+    nh_tape *tape = nh_tape_create(system->dag, width, in, at[rows * n], all, system->parameters, symbols, values);
     nh_tape_work *scratch = nh_tape_work_create(tape);
     for (size_t p = 0; p < states; p++) {
         for (size_t i = 0; i < width; i++) point[i] = 2 * nh_random(&w->seed) - 1;

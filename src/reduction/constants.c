@@ -18,11 +18,11 @@ typedef struct {
 /* Do the fields contain parameters? */
 static bool parametric(const nh_kinetic *k, size_t d, const nh_generator *generator)
 {
-    const nh_model *o = k->model;
+    const nh_model *model = k->model;
     for (size_t a = 0; a < d; a++)
         for (size_t s = 0; s < k->m; s++)
-            for (size_t i = 0; i < o->system->parameters; i++)
-                if (nh_depends(o->dag, generator[a].component[s], o->parameter[i])) return true;
+            for (size_t i = 0; i < model->system->parameters; i++)
+                if (nh_depends(model->dag, generator[a].component[s], model->parameter[i])) return true;
     return false;
 }
 

@@ -183,11 +183,11 @@ static void choose(contest *t, size_t rows, const double *column, const double *
 static nh_ex without_content(const search *s, nh_ex e)
 {
     static const int power[] = {2, 1, -1, -2};
-    const nh_model *o = s->s->kinetic->model;
-    for (size_t i = 0; i < o->system->parameters; i++)
-        for (size_t j = 0; j < sizeof power / sizeof *power && nh_depends(s->d, e, o->parameter[i]); j++) {
-            nh_ex rest = nh_simplify(s->d, nh_div(s->d, e, nh_powi(s->d, o->parameter[i], power[j])));
-            if (!nh_depends(s->d, rest, o->parameter[i])) e = rest;
+    const nh_model *model = s->s->kinetic->model;
+    for (size_t i = 0; i < model->system->parameters; i++)
+        for (size_t j = 0; j < sizeof power / sizeof *power && nh_depends(s->d, e, model->parameter[i]); j++) {
+            nh_ex rest = nh_simplify(s->d, nh_div(s->d, e, nh_powi(s->d, model->parameter[i], power[j])));
+            if (!nh_depends(s->d, rest, model->parameter[i])) e = rest;
         }
     return e;
 }

@@ -21,14 +21,14 @@ typedef struct {
 /* The jumps of atan2 and similar functions are constants: they are no walls for functions of angles. */
 static size_t walls_of(const nh_kinetic *k, nh_ex *u)
 {
-    const nh_system *s = k->model->system;
+    const nh_system *system = k->model->system;
     nh_walls all = {0};
     size_t count = 0;
-    nh_walls_add(&all, k->dag, s->lagrangian);
-    for (size_t i = 0; i < k->m && s->has_forces; i++) nh_walls_add(&all, k->dag, s->force[i]);
+    nh_walls_add(&all, k->dag, system->lagrangian);
+    for (size_t i = 0; i < k->m && system->has_forces; i++) nh_walls_add(&all, k->dag, system->force[i]);
     for (size_t a = 0; a < k->f; a++) nh_walls_add(&all, k->dag, k->force[a]);
     for (size_t i = 0; i < all.count; i++) {
-        bool here = false, elsewhere = nh_depends(k->dag, all.e[i], s->t);
+        bool here = false, elsewhere = nh_depends(k->dag, all.e[i], system->t);
         for (size_t j = 0; j < k->m; j++) {
             here |= nh_depends(k->dag, all.e[i], k->q[j]);
             elsewhere |= nh_depends(k->dag, all.e[i], k->v[j]);

@@ -40,13 +40,14 @@ nh_pose nh_joint_pose(nh_dag *d, const nh_chain *c, const nh_joint *j)
     return a;
 }
 
-nh_pose nh_joint_at_rest(const nh_system *s, const nh_pose *pose)
+nh_pose nh_joint_at_rest(const nh_system *system, const nh_pose *pose)
 {
-    nh_dag *d = s->dag;
-    size_t n = s->coordinates + 1;
+    nh_dag *d = system->dag;
+    size_t n = system->coordinates + 1;
     nh_ex *from = nh_alloc_array(2 * n, sizeof *from), *zero = from + n;
     nh_pose out = *pose;
-    for (size_t i = 0; i < n; i++) from[i] = i < s->coordinates ? s->coordinate[i].q : s->t, zero[i] = nh_int(d, 0);
+    for (size_t i = 0; i < n; i++)
+        from[i] = i < system->coordinates ? system->coordinate[i].q : system->t, zero[i] = nh_int(d, 0);
     for (int i = 0; i < 9; i++) out.R[i] = nh_substitute(d, out.R[i], n, from, zero);
     for (int i = 0; i < 3; i++) out.p[i] = nh_substitute(d, out.p[i], n, from, zero);
     nh_free(from);
@@ -57,16 +58,16 @@ nh_pose nh_joint_at_rest(const nh_system *s, const nh_pose *pose)
 static double score(void *context, nh_ex e)
 {
     enum { most = 128 };
-    const nh_system *s = context;
+    const nh_system *system = context;
     const nh_ex *symbols;
     const double *values;
     double point[most + 1], x = 0;
     uint64_t seed = 3;
-    size_t m = s->coordinates < most ? s->coordinates : most;
+    size_t m = system->coordinates < most ? system->coordinates : most;
     nh_ex in[most];
-    for (size_t i = 0; i < m; i++) in[i] = s->coordinate[i].q, point[i] = 0.3 + nh_random(&seed);
-    nh_system_bindings(s, &symbols, &values);
-    nh_tape *tape = nh_tape_create(s->dag, m, in, 1, &e, s->parameters, symbols, values);
+    for (size_t i = 0; i < m; i++) in[i] = system->coordinate[i].q, point[i] = 0.3 + nh_random(&seed);
+    nh_system_bindings(system, &symbols, &values);
+    nh_tape *tape = nh_tape_create(system->dag, m, in, 1, &e, system->parameters, symbols, values);
     nh_tape_work *scratch = nh_tape_work_create(tape);
     nh_tape_eval(tape, scratch, point, &x);
     nh_tape_work_free(scratch);

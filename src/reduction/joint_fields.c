@@ -183,18 +183,18 @@ static void points(work *w)
     add_point(w, p);
 }
 
-void nh_joint_fields_init(nh_joint_fields *out, const nh_system *s)
+void nh_joint_fields_init(nh_joint_fields *out, const nh_system *system)
 {
-    const nh_chain *c = s->chain;
-    *out = (nh_joint_fields){.m = s->coordinates};
+    const nh_chain *c = system->chain;
+    *out = (nh_joint_fields){.m = system->coordinates};
     if (!c) return;
     out->component = nh_alloc_array((most_fields + 1) * out->m + 1, sizeof *out->component);
     for (size_t i = 0; i < c->joints; i++) {
-        work w = {.system = s, .chain = c, .dag = s->dag, .joint = &c->joint[c->order[i]], .out = out};
+        work w = {.system = system, .chain = c, .dag = system->dag, .joint = &c->joint[c->order[i]], .out = out};
         bool free = w.joint->screws > 0;
         for (size_t k = 0; k < w.joint->screws; k++) free &= c->screw[w.joint->first + k].coordinate >= 0;
-        if (!free || !(w.rates = nh_joint_rates_create(s, w.joint))) continue;
-        w.n = nh_joint_basis(s->dag, c, w.joint, w.basis);
+        if (!free || !(w.rates = nh_joint_rates_create(system, w.joint))) continue;
+        w.n = nh_joint_basis(system->dag, c, w.joint, w.basis);
         points(&w);
         fixed_before(&w);
         for (size_t k = 0; k < w.n; k++) add(&w, &w.basis[k]);

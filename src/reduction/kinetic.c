@@ -153,16 +153,16 @@ static double condition(const nh_kinetic *k, nh_tape *tape, nh_tape_work *work, 
 /* A Lagrangian that is not quadratic may be undefined for velocities of the box: good[i] = 0 for such states. */
 static void leave_out_undefined(const nh_kinetic *k, size_t rounds, const nh_constraint_samples *sample, double *good)
 {
-    const nh_system *y = k->model->system;
+    const nh_system *system = k->model->system;
     size_t m = k->m, width = 1 + 2 * m;
     nh_ex *in = nh_alloc_array(width, sizeof *in);
     double L;
     if (!k->quadratic || !k->autonomous) {
-        in[0] = y->t;
+        in[0] = system->t;
         memcpy(in + 1, k->q, m * sizeof *in);
         memcpy(in + 1 + m, k->v, m * sizeof *in);
-        nh_tape *tape = nh_tape_create(k->dag, width, in, 1, &y->lagrangian, y->parameters, k->model->parameter,
-                                       k->model->parameter_value);
+        nh_tape *tape = nh_tape_create(k->dag, width, in, 1, &system->lagrangian, system->parameters,
+                                       k->model->parameter, k->model->parameter_value);
         nh_tape_work *work = nh_tape_work_create(tape);
         for (size_t r = 0; r < rounds; r++)
             for (size_t p = 0; p < sample[r].count; p++, good++) {

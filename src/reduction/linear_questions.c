@@ -95,13 +95,14 @@ static void metric_rows(writer *w)
 static void constraint_rows(writer *w)
 {
     const nh_kinetic *k = w->k;
-    const nh_model *o = k->model;
+    const nh_model *model = k->model;
     nh_dag *d = k->dag;
-    nh_ex *rest = nh_alloc_array(k->m + o->n + 1, sizeof *rest), *zero = rest + k->m;
-    for (size_t i = 0; i < o->n; i++) zero[i] = nh_int(d, 0);
-    for (size_t s = 0; s < k->m; s++) rest[s] = nh_substitute(d, o->rho[s], o->n, o->chart->w, zero);
+    nh_ex *rest = nh_alloc_array(k->m + model->n + 1, sizeof *rest), *zero = rest + k->m;
+    for (size_t i = 0; i < model->n; i++) zero[i] = nh_int(d, 0);
+    for (size_t s = 0; s < k->m; s++) rest[s] = nh_substitute(d, model->rho[s], model->n, model->chart->w, zero);
     for (size_t a = 0; a < k->f; a++) {
-        for (size_t i = 0; i < o->n; i++) constraint_row(w, k->omega + a * k->m, nh_int(d, 0), o->R + i, o->n);
+        for (size_t i = 0; i < model->n; i++)
+            constraint_row(w, k->omega + a * k->m, nh_int(d, 0), model->R + i, model->n);
         if (!k->linear) constraint_row(w, k->omega + a * k->m, k->b[a], rest, 1);
     }
     nh_free(rest);
@@ -127,15 +128,15 @@ static size_t generators_for_all(const nh_kinetic *k, const nh_options *options)
 static bool symmetries(nh_linear_system *s, const nh_kinetic *k, const nh_options *options)
 {
     size_t m = k->m;
-    const nh_model *o = k->model;
+    const nh_model *model = k->model;
     if (!k->quadratic || !k->autonomous || !k->affine || k->forced) return refuse(s, k->obstacle);
-    if (o->chart->implicit) return refuse(s, "velocities that are given implicitly");
+    if (model->chart->implicit) return refuse(s, "velocities that are given implicitly");
     s->family.unknowns = s->family.variables = m;
     s->family.variable = k->q;
     s->family.low = 1;
-    s->family.n = o->n;
-    s->family.mass = o->M;
-    writer w = {s, k, coefficients(s, k->dag, m * (m + 1) / 2 + 1 + m + k->f * (o->n + 1)), 0};
+    s->family.n = model->n;
+    s->family.mass = model->M;
+    writer w = {s, k, coefficients(s, k->dag, m * (m + 1) / 2 + 1 + m + k->f * (model->n + 1)), 0};
     metric_rows(&w);
     along(&w, k->V);
     w.rows++;
@@ -225,10 +226,10 @@ enum { most_fields = 120, deepest = 4 };
 
 /* Fields that span D, then brackets of these with the fields of the level before, level by level: as many levels as
  * the growth vector has for almost all values. Where brackets span less in the end they do so at one of these. */
-static bool integrability(nh_linear_system *s, const nh_model *o, size_t length)
+static bool integrability(nh_linear_system *s, const nh_model *model, size_t length)
 {
-    nh_distribution_fields g = nh_distribution_fields_of(o);
-    nh_dag *d = o->dag;
+    nh_distribution_fields g = nh_distribution_fields_of(model);
+    nh_dag *d = model->dag;
     if (!g.count) return refuse(s, "the velocities are not restricted by constraints that are at most affine");
     nh_ex *field = nh_arena_alloc(s->arena, most_fields * g.dimension * sizeof *field);
     size_t N = g.dimension, count = g.count, from = 0;
@@ -259,29 +260,29 @@ static bool integrability(nh_linear_system *s, const nh_model *o, size_t length)
 
 /* ---- all of them ---- */
 
-static void measure(nh_linear_system *s, const nh_model *o)
+static void measure(nh_linear_system *s, const nh_model *model)
 {
     s->family.unknowns = s->family.levels = 1;
-    s->family.equations[0] = o->n + 1;
+    s->family.equations[0] = model->n + 1;
 }
 
-nh_linear_system *nh_linear_system_create(const nh_model *o, nh_linear_question question, const nh_options *options)
+nh_linear_system *nh_linear_system_create(const nh_model *model, nh_linear_question question, const nh_options *options)
 {
     nh_arena *arena = nh_arena_create();
     nh_linear_system *s = nh_arena_alloc(arena, sizeof *s);
     nh_error none = {0};
     *s = (nh_linear_system){.arena = arena, .family = {.step = 1, .known = SIZE_MAX}};
     bool needed = question == NH_OF_SYMMETRIES || question == NH_OF_HAMILTONIZATION;
-    s->kinetic = needed ? nh_kinetic_create(o, (uint64_t)options->seed, &none) : NULL;
-    if (o->k) {
-        nh_distribution d = nh_distribution_of(o);
+    s->kinetic = needed ? nh_kinetic_create(model, (uint64_t)options->seed, &none) : NULL;
+    if (model->k) {
+        nh_distribution d = nh_distribution_of(model);
         s->family.step = d.growth.length ? d.growth.length : 1;
     }
     if (needed && !s->kinetic) refuse(s, "there are too few usable sample points");
     else if (question == NH_OF_SYMMETRIES) symmetries(s, s->kinetic, options);
     else if (question == NH_OF_HAMILTONIZATION) hamiltonization(s, s->kinetic, options);
-    else if (question == NH_OF_INTEGRABILITY) integrability(s, o, s->family.step);
-    else measure(s, o);
+    else if (question == NH_OF_INTEGRABILITY) integrability(s, model, s->family.step);
+    else measure(s, model);
     return s;
 }
 

@@ -89,14 +89,14 @@ static bool same(const nh_parameter_zeros *a, const nh_parameter_zeros *b)
 /* Adds the condition e = 0, unless it always holds or is in the list. */
 static bool demand(work *w, nh_ex e, bool factor)
 {
-    const nh_system *y = w->s->kinetic->model->system;
+    const nh_system *system = w->s->kinetic->model->system;
     nh_measure_conditions *o = w->out;
     nh_parameter_zeros where;
     const nh_ex *symbol;
     const double *value;
-    nh_system_bindings(y, &symbol, &value);
+    nh_system_bindings(system, &symbol, &value);
     if (nh_is_zero(w->dag, e)) return true;
-    if (!nh_parameter_zeros_find(w->arena, w->dag, e, y->parameters, symbol, &where)) return false;
+    if (!nh_parameter_zeros_find(w->arena, w->dag, e, system->parameters, symbol, &where)) return false;
     if (where.ways == 1 && !where.way[0].count) return true;
     for (size_t i = 0; i < o->count; i++)
         if (same(&o->condition[i].where, &where)) return true;
@@ -165,7 +165,7 @@ static void in_all_parameters(work *w, const nh_base_parameters *base)
 /* The same with fewer parameters. */
 static void shorten(work *w, const nh_ex *K, const nh_ex *U)
 {
-    const nh_system *y = w->s->kinetic->model->system;
+    const nh_system *system = w->s->kinetic->model->system;
     size_t n = w->n, entries = n * n + n * n * n;
     nh_base_parameters base;
     const nh_ex *symbol;
@@ -173,9 +173,9 @@ static void shorten(work *w, const nh_ex *K, const nh_ex *U)
     nh_ex *entry = nh_alloc_array(entries + 1, sizeof *entry);
     memcpy(entry, K, n * n * sizeof *entry);
     memcpy(entry + n * n, U, n * n * n * sizeof *entry);
-    nh_system_bindings(y, &symbol, &value);
+    nh_system_bindings(system, &symbol, &value);
     w->out->count = 0;
-    if (nh_base_parameters_of(w->arena, w->dag, entries, entry, n, w->s->x, y->parameters, symbol, &base)) {
+    if (nh_base_parameters_of(w->arena, w->dag, entries, entry, n, w->s->x, system->parameters, symbol, &base)) {
         w->out->known = tensor(w, entry, entry + n * n) && closed(w) && (n == 2 || simple(w));
         if (w->out->known) in_all_parameters(w, &base);
     }

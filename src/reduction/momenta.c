@@ -298,12 +298,13 @@ size_t nh_momenta_unproved(nh_momenta *out, const nh_action *g)
     return n;
 }
 
-void nh_momenta_confirm(nh_momenta *out, const nh_model *o, const nh_options *options)
+void nh_momenta_confirm(nh_momenta *out, const nh_model *model, const nh_options *options)
 {
     size_t kept = 0;
     for (size_t i = 0; i < out->count; i++) {
         nh_momentum *p = &out->momentum[i];
-        if (!p->proof.proved) p->proof = nh_prove_current(o, nh_chart_compose(o->chart, p->value), true, options);
+        if (!p->proof.proved)
+            p->proof = nh_prove_current(model, nh_chart_compose(model->chart, p->value), true, options);
         if (p->proof.proved || !p->proof.refuted) out->momentum[kept++] = *p;
     }
     out->count = kept;

@@ -43,12 +43,12 @@ static bool force(void *context, double t, const double *x, const double *u, dou
 }
 
 /* v . dL/dv - L at v = Fr u on the slice. */
-static nh_ex energy(const nh_model *o, const nh_slice *s, const nh_ex *u)
+static nh_ex energy(const nh_model *model, const nh_slice *s, const nh_ex *u)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     const nh_kinetic *k = s->kinetic;
-    nh_ex L = o->system->lagrangian, sum = nh_neg(d, L), *from = nh_alloc_array(2 * (s->m + s->d) + 1, sizeof *from),
-          *to = from + s->m + s->d;
+    nh_ex L = model->system->lagrangian, sum = nh_neg(d, L),
+          *from = nh_alloc_array(2 * (s->m + s->d) + 1, sizeof *from), *to = from + s->m + s->d;
     for (size_t i = 0; i < s->m; i++) sum = nh_add(d, sum, nh_mul(d, k->v[i], nh_diff(d, L, k->v[i])));
     for (size_t i = 0; i < s->m; i++) {
         from[i] = k->v[i];
@@ -64,7 +64,7 @@ static nh_ex energy(const nh_model *o, const nh_slice *s, const nh_ex *u)
     return sum;
 }
 
-nh_frame_motion *nh_frame_motion_create(nh_reduced *out, const nh_model *o, const nh_slice *s)
+nh_frame_motion *nh_frame_motion_create(nh_reduced *out, const nh_model *model, const nh_slice *s)
 {
     const nh_kinetic *k = s->kinetic;
     size_t m = s->m, d = s->d, n = s->n;
@@ -73,10 +73,10 @@ nh_frame_motion *nh_frame_motion_create(nh_reduced *out, const nh_model *o, cons
     for (size_t a = 0; a < d; a++)
         for (size_t i = 0; i < m; i++) {
             e[a * m + i] = s->action->generator[a].component[i];
-            for (size_t r = 0; r < m; r++) e[m * d + (a * m + i) * m + r] = nh_diff(o->dag, e[a * m + i], k->q[r]);
+            for (size_t r = 0; r < m; r++) e[m * d + (a * m + i) * m + r] = nh_diff(model->dag, e[a * m + i], k->q[r]);
         }
     *f = (nh_frame_motion){
-        .slice = s, .bordered = nh_bordered_create(o), .tape = nh_kinetic_tape(k, m * d * (1 + m), e)};
+        .slice = s, .bordered = nh_bordered_create(model), .tape = nh_kinetic_tape(k, m * d * (1 + m), e)};
     f->work = nh_tape_work_create(f->tape);
     f->e = nh_alloc_array(m * d * (1 + m) + 3 * m + m * m + 1, sizeof *f->e);
     f->q = f->e + m * d * (1 + m);
@@ -85,18 +85,18 @@ nh_frame_motion *nh_frame_motion_create(nh_reduced *out, const nh_model *o, cons
     f->frame = f->a + m;
     nh_reduced_init(out, k, n, s->x, m, d);
     for (size_t i = 0; i < m; i++) {
-        out->w[i] = nh_symbol_fresh(o->dag, "u");
-        out->momentum[i] = nh_name_of(o->dag, out->w[i]);
-        out->M[i * (m + 1)] = nh_int(o->dag, 1);
+        out->w[i] = nh_symbol_fresh(model->dag, "u");
+        out->momentum[i] = nh_name_of(model->dag, out->w[i]);
+        out->M[i * (m + 1)] = nh_int(model->dag, 1);
         if (i < n) out->dx[i] = out->w[i];
         else out->zeta[i - n] = out->w[i];
     }
     out->plain = true;
     out->force = force;
     out->context = f;
-    out->energy = energy(o, s, out->w);
-    out->t = o->system->t;
-    out->timed = nh_depends(o->dag, out->energy, out->t);
+    out->energy = energy(model, s, out->w);
+    out->t = model->system->t;
+    out->timed = nh_depends(model->dag, out->energy, out->t);
     nh_reduced_guard_slice(out, s);
     nh_free(e);
     return f;

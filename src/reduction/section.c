@@ -100,24 +100,24 @@ nh_proof nh_section_coefficients(const nh_kinetic *k, size_t n, const nh_ex *e, 
 nh_ex *nh_section_relations(const nh_kinetic *k, size_t columns, size_t rows, const nh_ex *entry,
                             const nh_options *options, size_t *count)
 {
-    const nh_model *o = k->model;
-    const nh_chart *chart = o->chart;
+    const nh_model *model = k->model;
+    const nh_chart *chart = model->chart;
     nh_ex *e = nh_alloc_array(columns * rows + 2 * k->m + chart->n + 1, sizeof *e), *variable = e + columns * rows,
           *found = NULL;
     size_t variables = 2 * k->m;
     memcpy(variable, k->q, k->m * sizeof *e);
     memcpy(variable + k->m, k->v, k->m * sizeof *e);
     for (size_t i = 0; i < chart->n && chart->quasi; i++) variable[variables++] = chart->w[i];
-    if (!k->autonomous) variable[variables++] = o->system->t;
+    if (!k->autonomous) variable[variables++] = model->system->t;
     nh_relation_columns q = {
-        k->dag, columns, rows, e, variables, variable, 0, o->parameter, (size_t)options->proof_terms};
-    for (size_t i = 0; i < columns * rows; i++) e[i] = nh_model_values(o, entry[i]);
+        k->dag, columns, rows, e, variables, variable, 0, model->parameter, (size_t)options->proof_terms};
+    for (size_t i = 0; i < columns * rows; i++) e[i] = nh_model_values(model, entry[i]);
     nh_relation_space *all = columns && rows ? nh_relation_space_of(k->arena, &q) : NULL;
     *count = all && !all->obstacle ? all->proved : 0;
     if (all && !all->obstacle && all->proved == all->bound) found = all->coefficient;
-    if (found && *count && o->system->parameters) { /* with parameters, where as many hold for all values */
+    if (found && *count && model->system->parameters) { /* with parameters, where as many hold for all values */
         q.entry = entry;
-        q.parameters = o->system->parameters;
+        q.parameters = model->system->parameters;
         nh_relation_space *free = nh_relation_space_of(k->arena, &q);
         if (!free->obstacle && free->proved == *count) found = free->coefficient;
     }

@@ -40,7 +40,7 @@ nh_spectrum nh_spectrum_of(nh_arena *arena, const nh_nullspace *s)
     return c;
 }
 
-bool nh_analysis_by_trial(const nh_analysis *r) { return r->hits && !r->hits->pencil_applied; }
+bool nh_analysis_by_trial(const nh_analysis *result) { return result->hits && !result->hits->pencil_applied; }
 
 const char *nh_analysis_stated_word(nh_stated_verdict verdict)
 {
@@ -60,43 +60,43 @@ const char *nh_limit_words(nh_arena *arena, const nh_limit *limit)
     return nh_arena_printf(arena, "--option %s=%.0f", limit->option, limit->value);
 }
 
-size_t nh_analysis_to_the_end(const nh_analysis *r)
+size_t nh_analysis_to_the_end(const nh_analysis *result)
 {
     size_t n = 0;
-    for (size_t k = 0; k < r->pieces; k++) n += r->piece[k].to_the_end;
+    for (size_t k = 0; k < result->pieces; k++) n += result->piece[k].to_the_end;
     return n;
 }
 
-size_t nh_analysis_left_out(const nh_analysis *r)
+size_t nh_analysis_left_out(const nh_analysis *result)
 {
     size_t count = 0;
-    for (size_t i = 0; i < r->stages; i++) count += r->stage[i].skipped;
+    for (size_t i = 0; i < result->stages; i++) count += result->stage[i].skipped;
     return count;
 }
 
-void nh_analysis_warn(nh_analysis *r, const char *format, ...)
+void nh_analysis_warn(nh_analysis *result, const char *format, ...)
 {
     char text[1000];
     va_list list;
-    if (r->warnings == most_warnings) return;
-    if (!r->warning) r->warning = nh_arena_alloc(r->arena, most_warnings * sizeof *r->warning);
+    if (result->warnings == most_warnings) return;
+    if (!result->warning) result->warning = nh_arena_alloc(result->arena, most_warnings * sizeof *result->warning);
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
-    for (size_t k = 0; k < r->warnings; k++)
-        if (!strcmp(r->warning[k], text)) return; /* another search of the same system said it already */
-    r->warning[r->warnings++] = nh_arena_strdup(r->arena, text);
+    for (size_t k = 0; k < result->warnings; k++)
+        if (!strcmp(result->warning[k], text)) return; /* another search of the same system said it already */
+    result->warning[result->warnings++] = nh_arena_strdup(result->arena, text);
 }
 
-void nh_analysis_free(nh_analysis *r)
+void nh_analysis_free(nh_analysis *result)
 {
-    if (!r) return;
-    nh_validation_free(r->validation);
-    nh_count_memory_free(r->counted);
-    nh_hits_free(r->hits);
-    nh_model_free(r->other);
-    nh_model_free(r->model);
-    nh_analysis_file_free(r->analysis);
-    nh_system_free(r->system);
-    nh_arena_free(r->arena);
+    if (!result) return;
+    nh_validation_free(result->validation);
+    nh_count_memory_free(result->counted);
+    nh_hits_free(result->hits);
+    nh_model_free(result->other);
+    nh_model_free(result->model);
+    nh_analysis_file_free(result->analysis);
+    nh_system_free(result->system);
+    nh_arena_free(result->arena);
 }

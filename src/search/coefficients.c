@@ -14,27 +14,27 @@
 #include "integrals/refine.h"
 
 /* The factors of a product that are parameters. */
-static nh_ex parameters_in(const nh_model *o, nh_ex e)
+static nh_ex parameters_in(const nh_model *model, nh_ex e)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex all = nh_int(d, 1);
     if (nh_kind_of(d, e) != NH_PRODUCT) return all;
     for (size_t k = 0; k < nh_arity(d, e); k++) {
         nh_ex base = nh_child(d, e, k), factor = nh_pow(d, base, nh_exponent_of(d, e, k));
         bool parameter = false;
-        for (size_t i = 0; i < o->system->parameters; i++) parameter |= base == o->parameter[i];
+        for (size_t i = 0; i < model->system->parameters; i++) parameter |= base == model->parameter[i];
         if (parameter) all = nh_mul(d, all, factor);
     }
     return all;
 }
 
 /* Coefficients for all parameters by residues, which long rates do not hinder, and that proves to be conserved. */
-static bool lifted(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out)
+static bool lifted(const nh_model *model, const nh_candidate *c, const nh_options *options, nh_ex *out)
 {
     enum { most_terms = 60 };
     static const double part = 0.01; /* of the work of a construction */
     static const double larger = 50; /* proofs: what residues give is seldom false */
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     size_t n = c->count;
     nh_options wide = *options;
     wide.proof_terms *= larger;
@@ -42,33 +42,33 @@ static bool lifted(const nh_model *o, const nh_candidate *c, const nh_options *o
     nh_ex term[most_terms], factor[most_terms], phi = nh_int(d, 0);
     double like[most_terms];
     for (size_t j = 0; j < n; j++) {
-        factor[j] = parameters_in(o, c->term[j]);
+        factor[j] = parameters_in(model, c->term[j]);
         term[j] = nh_div(d, c->term[j], factor[j]);
-        like[j] = c->coefficient[j] * nh_model_number(o, factor[j]);
+        like[j] = c->coefficient[j] * nh_model_number(model, factor[j]);
     }
-    if (!nh_lift_coefficients(o, n, term, like, c->pivot, part * options->construct, out)) return false;
+    if (!nh_lift_coefficients(model, n, term, like, c->pivot, part * options->construct, out)) return false;
     for (size_t j = 0; j < n; j++) {
         phi = nh_add(d, phi, nh_mul(d, out[j], term[j]));
         out[j] = nh_div(d, out[j], factor[j]);
     }
-    return nh_prove_current(o, phi, true, &wide).all_parameters;
+    return nh_prove_current(model, phi, true, &wide).all_parameters;
 }
 
 /* The relation of the terms' rates.  Where it needs values of parameters, or has no exact numbers, the numbers inside
  * of terms are replaced by names. */
-static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out,
+static nh_fixed relation_of(const nh_model *model, const nh_candidate *c, const nh_options *options, nh_ex *out,
                             nh_letters *letters)
 {
     bool rounded = false;
     nh_ex *rate = nh_alloc_array(c->count + 1, sizeof *rate);
     for (size_t j = 0; j < c->count; j++) {
-        rate[j] = nh_model_paired_roots(o, nh_model_gamma(o, c->term[j]));
-        rounded = rounded || !nh_is_short(o->dag, c->term[j]);
+        rate[j] = nh_model_paired_roots(model, nh_model_gamma(model, c->term[j]));
+        rounded = rounded || !nh_is_short(model->dag, c->term[j]);
     }
-    nh_fixed relation = (c->by_values ? nh_fixed_relation_by_values : nh_fixed_relation)(o, c->count, rate,
+    nh_fixed relation = (c->by_values ? nh_fixed_relation_by_values : nh_fixed_relation)(model, c->count, rate,
                                                                                          c->coefficient, options, out);
     if (!relation.all_parameters && (rounded || !relation.too_large)) {
-        nh_fixed named = nh_letters_relation(o, c->count, c->term, c->coefficient, options, rate, letters);
+        nh_fixed named = nh_letters_relation(model, c->count, c->term, c->coefficient, options, rate, letters);
         if (named.found) relation = named;
         if (named.found) memcpy(out, rate, c->count * sizeof *out);
         else letters->count = 0;
@@ -76,15 +76,15 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
     if (relation.too_large) {
         nh_ex *shown = nh_alloc_array(c->count + 1, sizeof *shown);
         memcpy(shown, out, c->count * sizeof *shown);
-        nh_fixed shorter =
-            relation.found ? nh_companion_relation(o, c->count, c->term, options, shown)
-                           : nh_companion_relation_nearby(o, c->count, c->term, rate, c->coefficient, options, shown);
+        nh_fixed shorter = relation.found ? nh_companion_relation(model, c->count, c->term, options, shown)
+                                          : nh_companion_relation_nearby(model, c->count, c->term, rate, c->coefficient,
+                                                                         options, shown);
         if (shorter.found) memcpy(rate, shown, c->count * sizeof *shown);
         nh_free(shown);
         if (shorter.found) relation = shorter;
         if (shorter.found) memcpy(out, rate, c->count * sizeof *out);
     }
-    if (!relation.all_parameters && lifted(o, c, options, rate)) {
+    if (!relation.all_parameters && lifted(model, c, options, rate)) {
         relation = (nh_fixed){.found = true, .all_parameters = true};
         letters->count = 0;
         memcpy(out, rate, c->count * sizeof *out);
@@ -95,12 +95,12 @@ static nh_fixed relation_of(const nh_model *o, const nh_candidate *c, const nh_o
 
 /* Exact coefficients: the rates of the support's terms are linearly related over the field of the parameters, some of
  * which keep their given values where that is needed. */
-static bool exact_coefficients(const nh_model *o, const nh_candidate *c, const nh_options *options, nh_ex *out,
+static bool exact_coefficients(const nh_model *model, const nh_candidate *c, const nh_options *options, nh_ex *out,
                                nh_claim *claim, nh_letters *letters)
 {
-    nh_fixed relation = relation_of(o, c, options, out, letters);
+    nh_fixed relation = relation_of(model, c, options, out, letters);
     for (size_t j = 0; j < c->count && relation.fixed && relation.found && !relation.too_large; j++)
-        c->term[j] = nh_fixed_values(o, relation.fixed, c->term[j]);
+        c->term[j] = nh_fixed_values(model, relation.fixed, c->term[j]);
     *claim = (nh_claim){.free = true, .fixed = relation.fixed, .related = relation.found};
     /* other values are not considered: the proof may be shorter than the relation */
     if (relation.too_large) *claim = (nh_claim){.free = true};
@@ -120,13 +120,13 @@ static bool near(size_t n, const double *a, const double *b)
 }
 
 /* Drops terms that are conserved by themselves, which leave the others' coefficients undetermined; one term stays. */
-static bool drop_constant_terms(const nh_model *o, nh_candidate *c, const nh_options *options)
+static bool drop_constant_terms(const nh_model *model, nh_candidate *c, const nh_options *options)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     size_t n = 0, pivot = 0, before = c->count;
     for (size_t j = 0; j < before; j++) {
-        bool constant = j != c->pivot &&
-                        nh_normal_is_zero(d, nh_model_gamma(o, c->term[j]), (size_t)options->proof_terms) == NH_ZERO;
+        bool constant = j != c->pivot && nh_normal_is_zero(d, nh_model_gamma(model, c->term[j]),
+                                                           (size_t)options->proof_terms) == NH_ZERO;
         if (constant) continue;
         if (j == c->pivot) pivot = n;
         c->term[n] = c->term[j];
@@ -137,12 +137,12 @@ static bool drop_constant_terms(const nh_model *o, nh_candidate *c, const nh_opt
     return n < before;
 }
 
-static nh_refined refine_terms(const nh_model *o, const nh_candidate *c, const nh_options *options)
+static nh_refined refine_terms(const nh_model *model, const nh_candidate *c, const nh_options *options)
 {
     bool *leading = nh_alloc_array(c->count + 1, sizeof *leading);
     leading[c->pivot] = true;
-    nh_refine_numbers(o, c->count, c->term, c->coefficient, c->pivot, options);
-    nh_refined better = nh_refine(o, c->count, c->term, leading, options);
+    nh_refine_numbers(model, c->count, c->term, c->coefficient, c->pivot, options);
+    nh_refined better = nh_refine(model, c->count, c->term, leading, options);
     nh_free(leading);
     return better;
 }
@@ -161,12 +161,12 @@ static void drop_zeros(nh_candidate *c)
     c->pivot = pivot;
 }
 
-static void refine(const nh_model *o, nh_candidate *c, const nh_options *options, nh_current *f)
+static void refine(const nh_model *model, nh_candidate *c, const nh_options *options, nh_current *f)
 {
-    nh_refined better = refine_terms(o, c, options);
-    if (better.count == 0 && drop_constant_terms(o, c, options)) {
+    nh_refined better = refine_terms(model, c, options);
+    if (better.count == 0 && drop_constant_terms(model, c, options)) {
         nh_refined_clear(&better);
-        better = refine_terms(o, c, options);
+        better = refine_terms(model, c, options);
     }
     f->asked = true;
     f->refined = better.count ? better.digits[0] : -1;
@@ -197,16 +197,16 @@ bool nh_coefficients_refuted(const nh_current *f, const nh_options *options)
     return f->asked && f->refined >= 0 && f->refined < options->digits && !nh_coefficients_certain(f, options);
 }
 
-nh_ex nh_coefficients_assemble(const nh_model *o, nh_candidate *c, const nh_options *options, nh_current *f,
+nh_ex nh_coefficients_assemble(const nh_model *model, nh_candidate *c, const nh_options *options, nh_current *f,
                                nh_claim *claim)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex *k = nh_alloc_array(c->count + 1, sizeof *k);
-    bool many = c->count > 1;           /* one term has no coefficients to refine */
-    if (many) refine(o, c, options, f); /* relations of many terms cost more */
+    bool many = c->count > 1;               /* one term has no coefficients to refine */
+    if (many) refine(model, c, options, f); /* relations of many terms cost more */
     bool hopeless = many && f->refined >= 0 && f->refined < options->digits;
-    f->exact = !hopeless && exact_coefficients(o, c, options, k, claim, &f->letters);
-    if (!many && !f->exact) refine(o, c, options, f);
+    f->exact = !hopeless && exact_coefficients(model, c, options, k, claim, &f->letters);
+    if (!many && !f->exact) refine(model, c, options, f);
     if (!f->exact) {
         f->exact = true;
         for (size_t j = 0; j < c->count; j++)

@@ -50,16 +50,16 @@ static void join(search *x, size_t i, size_t k, nh_ex r)
     for (size_t j = 0; j < x->states; j++) x->rate[j] = nh_substitute(d, x->rate[j], 1, &x->state[k], &zero);
 }
 
-const nh_combined_coordinates *nh_combined_coordinates_of(nh_arena *arena, const nh_model *o, const nh_ex *rate)
+const nh_combined_coordinates *nh_combined_coordinates_of(nh_arena *arena, const nh_model *model, const nh_ex *rate)
 {
-    size_t states = 1 + o->m + o->n;
-    search x = {.o = o, .d = o->dag, .states = states, .state = o->chart->symbol};
+    size_t states = 1 + model->m + model->n;
+    search x = {.o = model, .d = model->dag, .states = states, .state = model->chart->symbol};
     x.rate = nh_arena_alloc(arena, states * sizeof *x.rate);
     x.with = nh_arena_alloc(arena, states * sizeof *x.with);
     memcpy(x.rate, rate, states * sizeof *x.rate);
     for (size_t i = 0; i < states; i++) x.with[i] = nh_int(x.d, 0);
-    for (size_t i = 1; i <= o->m; i++)
-        for (size_t k = 0; k <= o->m; k++) {
+    for (size_t i = 1; i <= model->m; i++)
+        for (size_t k = 0; k <= model->m; k++) {
             nh_ex r;
             if (k != i && (k == 0 || k > i) && ratio_of(&x, i, k, &r)) join(&x, i, k, r);
         }
@@ -69,7 +69,7 @@ const nh_combined_coordinates *nh_combined_coordinates_of(nh_arena *arena, const
     out->symbol = nh_arena_alloc(arena, states * sizeof *out->symbol);
     out->combined = nh_arena_alloc(arena, states * sizeof *out->combined);
     out->state_in_combined = nh_arena_alloc(arena, states * sizeof *out->state_in_combined);
-    for (size_t i = 1; i <= o->m; i++) {
+    for (size_t i = 1; i <= model->m; i++) {
         if (nh_is_zero(x.d, x.with[i])) continue;
         out->state[out->count] = i;
         out->symbol[out->count] = x.state[i];

@@ -15,22 +15,22 @@ static const double no_degree = INFINITY; /* not polynomial in the velocities */
 
 /* ---- degrees ---- */
 
-bool nh_counted_has_velocities(const nh_model *o, nh_ex e)
+bool nh_counted_has_velocities(const nh_model *model, nh_ex e)
 {
     bool has = false;
-    for (size_t i = 0; i < o->n && !has; i++) has = nh_depends(o->dag, e, o->chart->w[i]);
+    for (size_t i = 0; i < model->n && !has; i++) has = nh_depends(model->dag, e, model->chart->w[i]);
     return has;
 }
 
-double nh_counted_degree_of(const nh_model *o, nh_ex e)
+double nh_counted_degree_of(const nh_model *model, nh_ex e)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     double degree = 0;
-    if (!nh_counted_has_velocities(o, e)) return 0;
+    if (!nh_counted_has_velocities(model, e)) return 0;
     if (nh_kind_of(d, e) == NH_SYMBOL) return 1;
     if (nh_kind_of(d, e) != NH_SUM && nh_kind_of(d, e) != NH_PRODUCT) return no_degree;
     for (size_t k = 0; k < nh_arity(d, e); k++) {
-        double own = nh_counted_degree_of(o, nh_child(d, e, k));
+        double own = nh_counted_degree_of(model, nh_child(d, e, k));
         if (nh_kind_of(d, e) == NH_SUM) {
             degree = fmax(degree, own);
             continue;
@@ -43,80 +43,80 @@ double nh_counted_degree_of(const nh_model *o, nh_ex e)
     return degree;
 }
 
-static double highest(const nh_model *o, size_t count, const nh_ex *e)
+static double highest(const nh_model *model, size_t count, const nh_ex *e)
 {
     double degree = 0;
-    for (size_t i = 0; i < count && degree < no_degree; i++) degree = fmax(degree, nh_counted_degree_of(o, e[i]));
+    for (size_t i = 0; i < count && degree < no_degree; i++) degree = fmax(degree, nh_counted_degree_of(model, e[i]));
     return degree;
 }
 
-static bool depends_on_time(const nh_model *o, size_t count, const nh_ex *e)
+static bool depends_on_time(const nh_model *model, size_t count, const nh_ex *e)
 {
     bool depends = false;
-    for (size_t i = 0; i < count && !depends; i++) depends = nh_depends(o->dag, e[i], o->system->t);
+    for (size_t i = 0; i < count && !depends; i++) depends = nh_depends(model->dag, e[i], model->system->t);
     return depends;
 }
 
 /* A product of functions of the velocities that are none, such as a wave in them, has no degree. */
-static double degree_of_family(const nh_model *o, const nh_family *f, bool *timely)
+static double degree_of_family(const nh_model *model, const nh_family *f, bool *timely)
 {
     double degree = 0, own;
-    *timely |= depends_on_time(o, f->in_count, f->in) || depends_on_time(o, f->terms, f->term);
+    *timely |= depends_on_time(model, f->in_count, f->in) || depends_on_time(model, f->terms, f->term);
     switch (f->kind) {
-    case NH_TERMS: return highest(o, f->terms, f->term);
-    case NH_POLYNOMIAL: return highest(o, f->in_count, f->in) * (double)f->degree;
+    case NH_TERMS: return highest(model, f->terms, f->term);
+    case NH_POLYNOMIAL: return highest(model, f->in_count, f->in) * (double)f->degree;
     case NH_FAMILY_PRODUCT:
-        for (size_t i = 0; i < f->parts; i++) degree += degree_of_family(o, &f->part[i], timely);
+        for (size_t i = 0; i < f->parts; i++) degree += degree_of_family(model, &f->part[i], timely);
         return degree;
-    default: own = highest(o, f->in_count, f->in); return own > 0 ? no_degree : 0;
+    default: own = highest(model, f->in_count, f->in); return own > 0 ? no_degree : 0;
     }
 }
 
-double nh_counted_degree(const nh_model *o, size_t families, const nh_family *family, bool *timely)
+double nh_counted_degree(const nh_model *model, size_t families, const nh_family *family, bool *timely)
 {
     double degree = 0;
-    for (size_t i = 0; i < families; i++) degree = fmax(degree, degree_of_family(o, &family[i], timely));
+    for (size_t i = 0; i < families; i++) degree = fmax(degree, degree_of_family(model, &family[i], timely));
     return degree;
 }
 
 /* ---- the count ---- */
 
-size_t nh_counted_proved(const nh_analysis *r, nh_ex *phi, bool *general, size_t *independent)
+size_t nh_counted_proved(const nh_analysis *result, nh_ex *phi, bool *general, size_t *independent)
 {
     size_t n = 0;
     *general = true;
     *independent = 0;
-    for (size_t k = 0; k < r->furthers; k++) {
-        phi[n++] = r->further[k].current.phi;
-        *general &= r->further[k].current.proof.all_parameters;
+    for (size_t k = 0; k < result->furthers; k++) {
+        phi[n++] = result->further[k].current.phi;
+        *general &= result->further[k].current.proof.all_parameters;
     }
-    for (size_t k = 0; k < r->count; k++) {
-        if (!r->found[k].proof.proved || r->found[k].series) continue;
-        phi[n++] = r->found[k].phi;
-        *general &= r->found[k].proof.all_parameters;
-        *independent += r->found[k].independence == NH_INDEPENDENT;
+    for (size_t k = 0; k < result->count; k++) {
+        if (!result->found[k].proof.proved || result->found[k].series) continue;
+        phi[n++] = result->found[k].phi;
+        *general &= result->found[k].proof.all_parameters;
+        *independent += result->found[k].independence == NH_INDEPENDENT;
     }
     return n;
 }
 
-size_t nh_counted_regional(const nh_analysis *r, nh_ex *phi, bool *general)
+size_t nh_counted_regional(const nh_analysis *result, nh_ex *phi, bool *general)
 {
     size_t n = 0;
     *general = true;
-    for (size_t k = 0; k < r->pieces; k++) {
-        if (!r->piece[k].proof.proved || r->piece[k].series || !r->piece[k].counted) continue;
-        phi[n++] = r->piece[k].phi;
-        *general &= r->piece[k].proof.all_parameters;
+    for (size_t k = 0; k < result->pieces; k++) {
+        if (!result->piece[k].proof.proved || result->piece[k].series || !result->piece[k].counted) continue;
+        phi[n++] = result->piece[k].phi;
+        *general &= result->piece[k].proof.all_parameters;
     }
     return n;
 }
 
-bool nh_counted_has_walls(const nh_model *o)
+bool nh_counted_has_walls(const nh_model *model)
 {
-    nh_ex *e = nh_arena_alloc(o->arena, (o->m + o->n) * sizeof *e), wall[NH_MOST_WALLS];
-    memcpy(e, o->rho, o->m * sizeof *e);
-    memcpy(e + o->m, o->a, o->n * sizeof *e);
-    return nh_walls_between(o->dag, o->m + o->n, e, o->width, o->chart->symbol, wall) > 0;
+    nh_ex *e = nh_arena_alloc(model->arena, (model->m + model->n) * sizeof *e), wall[NH_MOST_WALLS];
+    memcpy(e, model->rho, model->m * sizeof *e);
+    memcpy(e + model->m, model->a, model->n * sizeof *e);
+    return nh_walls_between(model->dag, model->m + model->n, e, model->width, model->chart->symbol, wall) > 0;
 }
 
 typedef enum { NOTHING, SOMETHING, UNKNOWN } news;
@@ -144,10 +144,10 @@ static news look_for_news(nh_counted *x, size_t degree, size_t kind)
 }
 
 /* Beyond a few coordinates the count takes longer than the stages that it may spare. */
-static bool is_cheap(const nh_analysis *r)
+static bool is_cheap(const nh_analysis *result)
 {
     enum { few_coordinates = 5 };
-    return r->counted && r->model->m <= few_coordinates;
+    return result->counted && result->model->m <= few_coordinates;
 }
 
 bool nh_counted_covers(nh_counted *x, size_t degree, bool timely)

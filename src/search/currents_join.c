@@ -4,25 +4,25 @@
 #include "integrals/refine.h"
 #include "search/currents.h"
 
-static size_t unite(nh_current_checker *b, nh_ex *term, bool *leading)
+static size_t unite(nh_current_checker *checker, nh_ex *term, bool *leading)
 {
     size_t n = 0;
-    for (size_t k = 0; k < b->nears; k++)
-        for (size_t j = 0; j < b->near[k]->count; j++) {
+    for (size_t k = 0; k < checker->nears; k++)
+        for (size_t j = 0; j < checker->near[k]->count; j++) {
             size_t at = 0;
-            while (at < n && term[at] != b->near[k]->term[j]) at++;
-            if (at == n) term[n++] = b->near[k]->term[j];
-            leading[at] |= j == b->near[k]->pivot;
+            while (at < n && term[at] != checker->near[k]->term[j]) at++;
+            if (at == n) term[n++] = checker->near[k]->term[j];
+            leading[at] |= j == checker->near[k]->pivot;
         }
     return n;
 }
 
 /* The pivot is a leading term that the vector contains. */
-static nh_candidate joined(const nh_current_checker *b, size_t n, const nh_ex *term, const bool *leading,
+static nh_candidate joined(const nh_current_checker *checker, size_t n, const nh_ex *term, const bool *leading,
                            const double *coefficient)
 {
-    nh_arena *arena = b->result->arena;
-    nh_candidate c = {.all = n, .accepted = b->near[0]->accepted};
+    nh_arena *arena = checker->result->arena;
+    nh_candidate c = {.all = n, .accepted = checker->near[0]->accepted};
     c.term = nh_arena_alloc(arena, (n + 1) * sizeof *c.term);
     c.coefficient = nh_arena_alloc(arena, (n + 1) * sizeof *c.coefficient);
     c.all_term = nh_arena_alloc(arena, (n + 1) * sizeof *c.all_term);
@@ -37,23 +37,23 @@ static nh_candidate joined(const nh_current_checker *b, size_t n, const nh_ex *t
     return c;
 }
 
-size_t nh_currents_join(nh_current_checker *b, const nh_points *fit)
+size_t nh_currents_join(nh_current_checker *checker, const nh_points *fit)
 {
     enum { most_terms = 160 };
-    const nh_analysis *r = b->result;
+    const nh_analysis *result = checker->result;
     size_t n = 0, added = 0;
-    for (size_t k = 0; k < b->nears; k++) n += b->near[k]->count;
+    for (size_t k = 0; k < checker->nears; k++) n += checker->near[k]->count;
     nh_ex *term = nh_alloc_array(n + 1, sizeof *term);
     bool *leading = nh_alloc_array(n + 1, sizeof *leading);
-    n = unite(b, term, leading);
+    n = unite(checker, term, leading);
     nh_refined better = {0};
-    if (b->nears > 1 && n <= most_terms) better = nh_refine(r->model, n, term, leading, &r->options);
+    if (checker->nears > 1 && n <= most_terms) better = nh_refine(result->model, n, term, leading, &result->options);
     for (size_t k = 0; k < better.count; k++) {
-        if (better.digits[k] < r->options.digits) continue;
-        nh_candidate c = joined(b, n, term, leading, better.coefficient + k * n);
-        added += nh_currents_add(b, &c, fit, false);
+        if (better.digits[k] < result->options.digits) continue;
+        nh_candidate c = joined(checker, n, term, leading, better.coefficient + k * n);
+        added += nh_currents_add(checker, &c, fit, false);
     }
-    b->nears = 0;
+    checker->nears = 0;
     nh_refined_clear(&better);
     nh_free(leading);
     nh_free(term);

@@ -9,19 +9,19 @@
 #include "search/counted.h"
 #include "search/currents.h"
 
-static nh_region region_of(nh_current_checker *b, nh_ex phi, double digits)
+static nh_region region_of(nh_current_checker *checker, nh_ex phi, double digits)
 {
-    nh_analysis *r = b->result;
-    if (!b->searched) b->terrain = nh_terrain_of(r->model, &r->options, r->arena);
-    b->searched = true;
-    return nh_region_of(r->model, &b->terrain, phi, digits, &r->options, r->arena);
+    nh_analysis *result = checker->result;
+    if (!checker->searched) checker->terrain = nh_terrain_of(result->model, &result->options, result->arena);
+    checker->searched = true;
+    return nh_region_of(result->model, &checker->terrain, phi, digits, &result->options, result->arena);
 }
 
-const char *nh_currents_region(nh_current_checker *b, nh_ex phi, double digits, bool *to_the_end)
+const char *nh_currents_region(nh_current_checker *checker, nh_ex phi, double digits, bool *to_the_end)
 {
-    nh_region region = region_of(b, phi, digits);
+    nh_region region = region_of(checker, phi, digits);
     if (to_the_end) *to_the_end = nh_region_to_the_end(&region);
-    return nh_region_text(b->result->model->dag, &region, b->result->arena);
+    return nh_region_text(checker->result->model->dag, &region, checker->result->arena);
 }
 
 /* e with |u| and sign(u) as on the side of the wall u = 0 on which the region lies. */
@@ -43,50 +43,50 @@ static nh_ex on_its_side(nh_dag *d, const nh_region *region, nh_ex e)
     return nh_substitute(d, e, n, from, to);
 }
 
-const char *nh_currents_hold(nh_current_checker *b, nh_current *f)
+const char *nh_currents_hold(nh_current_checker *checker, nh_current *f)
 {
-    const nh_model *o = b->result->model;
-    const nh_options *options = &b->result->options;
+    const nh_model *model = checker->result->model;
+    const nh_options *options = &checker->result->options;
     bool everywhere = f->proof.proved && !f->proof.sided;
     /* a formula that cancels to fewer digits as printed cannot be required to do better */
-    nh_region region =
-        region_of(b, f->phi, everywhere ? 0 : fmax(NH_LEAST_ALMOST, fmin(f->printed_digits, options->digits) / 2));
-    if (f->proof.sided && region.count) region = nh_region_of_pairs(o);
+    nh_region region = region_of(checker, f->phi,
+                                 everywhere ? 0 : fmax(NH_LEAST_ALMOST, fmin(f->printed_digits, options->digits) / 2));
+    if (f->proof.sided && region.count) region = nh_region_of_pairs(model);
     if (region.count && !f->proof.proved) {
-        size_t n = 1 + o->m + o->n;
+        size_t n = 1 + model->m + model->n;
         nh_ex *term = nh_alloc_array(n, sizeof *term);
-        nh_rate_terms(o, f->phi, term);
-        for (size_t j = 0; j < n; j++) term[j] = on_its_side(o->dag, &region, term[j]);
-        nh_proof proof = nh_prove_zero(o, n, term, f->exact, options);
+        nh_rate_terms(model, f->phi, term);
+        for (size_t j = 0; j < n; j++) term[j] = on_its_side(model->dag, &region, term[j]);
+        nh_proof proof = nh_prove_zero(model, n, term, f->exact, options);
         if (proof.proved) f->proof = proof;
         nh_free(term);
     }
     f->to_the_end = nh_region_to_the_end(&region);
-    f->counted = nh_one_side_within(o, &region);
-    return nh_region_text(o->dag, &region, b->result->arena);
+    f->counted = nh_one_side_within(model, &region);
+    return nh_region_text(model->dag, &region, checker->result->arena);
 }
 
 /* Can the same current be written so that it passes through its walls?  Then it must be proved again, and hold
  * everywhere; perhaps for more parameter values, because it has no roots and arctangents whose branches must agree. */
-static bool goes_through(nh_current_checker *b, nh_current *f, nh_ex phi)
+static bool goes_through(nh_current_checker *checker, nh_current *f, nh_ex phi)
 {
-    nh_model *o = b->result->model;
+    nh_model *model = checker->result->model;
     nh_claim claim = {.free = f->exact, .fixed = f->proof.fixed};
     if (phi == f->phi) return false;
-    nh_proof proof = nh_prove_claim(o, phi, claim, &b->result->options);
-    if (!proof.proved || nh_currents_region(b, phi, 0, NULL)) return false;
-    f->phi = nh_simplify_short(o->dag, phi, 0);
+    nh_proof proof = nh_prove_claim(model, phi, claim, &checker->result->options);
+    if (!proof.proved || nh_currents_region(checker, phi, 0, NULL)) return false;
+    f->phi = nh_simplify_short(model->dag, phi, 0);
     f->proof = proof;
     return true;
 }
 
-bool nh_currents_continue(nh_current_checker *b, nh_current *f)
+bool nh_currents_continue(nh_current_checker *checker, nh_current *f)
 {
-    nh_model *o = b->result->model;
+    nh_model *model = checker->result->model;
     if (!f->proof.proved) return false;
-    if (goes_through(b, f, nh_continued_roots(o, f->phi, (uint64_t)b->result->options.seed)) ||
-        goes_through(b, f, nh_continued_arctangents(o, f->phi)))
+    if (goes_through(checker, f, nh_continued_roots(model, f->phi, (uint64_t)checker->result->options.seed)) ||
+        goes_through(checker, f, nh_continued_arctangents(model, f->phi)))
         return true;
     /* a polynomial in the velocities, such as the energy in a potential atan(y/x), is counted as one */
-    return isinf(nh_counted_degree_of(o, f->phi)) && goes_through(b, f, nh_continued_turns(o, f->phi));
+    return isinf(nh_counted_degree_of(model, f->phi)) && goes_through(checker, f, nh_continued_turns(model, f->phi));
 }

@@ -27,12 +27,12 @@ typedef struct {
 
 /* ---- the ansatz ---- */
 
-static bool moves_with(const nh_model *o, nh_ex symbol)
+static bool moves_with(const nh_model *model, nh_ex symbol)
 {
-    for (size_t s = 0; s < o->m; s++)
-        if (nh_depends(o->dag, o->rho[s], symbol)) return true;
-    for (size_t i = 0; i < o->n; i++)
-        if (nh_depends(o->dag, o->a[i], symbol)) return true;
+    for (size_t s = 0; s < model->m; s++)
+        if (nh_depends(model->dag, model->rho[s], symbol)) return true;
+    for (size_t i = 0; i < model->n; i++)
+        if (nh_depends(model->dag, model->a[i], symbol)) return true;
     return false;
 }
 
@@ -296,17 +296,19 @@ static void act(search *x, size_t count, const nh_named_current *current, const 
 
 static void prepare(search *x)
 {
-    const nh_model *o = x->o;
-    x->rows = o->k + o->n;
+    const nh_model *model = x->o;
+    x->rows = model->k + model->n;
     list_letters(x);
-    if (!o->chart->quasi) return;
-    nh_ex *square = nh_alloc_array(o->n * o->n + 1, sizeof *square);
-    for (size_t i = 0; i < o->n * o->n; i++) {
+    if (!model->chart->quasi) return;
+    nh_ex *square = nh_alloc_array(model->n * model->n + 1, sizeof *square);
+    for (size_t i = 0; i < model->n * model->n; i++) {
         square[i] = nh_int(x->d, 0);
-        for (size_t s = 0; s < o->m; s++)
-            square[i] = nh_add(x->d, square[i], nh_mul(x->d, o->R[s * o->n + i / o->n], o->R[s * o->n + i % o->n]));
+        for (size_t s = 0; s < model->m; s++)
+            square[i] =
+                nh_add(x->d, square[i],
+                       nh_mul(x->d, model->R[s * model->n + i / model->n], model->R[s * model->n + i % model->n]));
     }
-    x->lu = nh_lu_create(x->d, o->n, square, nh_chart_pivot_score, o->chart, NULL);
+    x->lu = nh_lu_create(x->d, model->n, square, nh_chart_pivot_score, model->chart, NULL);
     if (!x->lu) x->out->obstacle = "quasi-velocities that are not independent";
     nh_free(square);
 }

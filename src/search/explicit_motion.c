@@ -18,12 +18,12 @@
 /* False: no combined coordinates, which were asked for. */
 static bool start(nh_explicit_curve *c, const nh_explicit_request *request)
 {
-    const nh_model *o = c->o;
+    const nh_model *model = c->o;
     nh_dag *d = c->d;
     nh_explicit_motion *m = c->m;
     size_t states = m->states, n = request->currents;
     nh_ex *state = nh_arena_alloc(c->arena, states * sizeof *state);
-    memcpy(state, o->chart->symbol, states * sizeof *state);
+    memcpy(state, model->chart->symbol, states * sizeof *state);
     m->state = state;
     c->rate = nh_arena_alloc(c->arena, states * sizeof *c->rate);
     c->value = nh_arena_alloc(c->arena, states * sizeof *c->value);
@@ -36,12 +36,12 @@ static bool start(nh_explicit_curve *c, const nh_explicit_request *request)
     m->root = nh_arena_alloc(c->arena, most_roots * sizeof *m->root);
     m->integral = nh_arena_alloc(c->arena, most_integrals * sizeof *m->integral);
     for (size_t i = 0; i < states; i++) {
-        nh_ex rate = i == 0 ? nh_int(d, 1) : i <= o->m ? o->rho[i - 1] : o->a[i - 1 - o->m];
-        c->rate[i] = c->fixed ? nh_fixed_values(o, c->fixed, rate) : rate;
+        nh_ex rate = i == 0 ? nh_int(d, 1) : i <= model->m ? model->rho[i - 1] : model->a[i - 1 - model->m];
+        c->rate[i] = c->fixed ? nh_fixed_values(model, c->fixed, rate) : rate;
         c->value[i] = nh_int(d, 0);
     }
     if (request->combined) {
-        c->combined = nh_combined_coordinates_of(c->arena, o, c->rate);
+        c->combined = nh_combined_coordinates_of(c->arena, model, c->rate);
         if (!c->combined) return false;
         memcpy(c->rate, c->combined->rate, states * sizeof *c->rate);
     }
@@ -49,10 +49,10 @@ static bool start(nh_explicit_curve *c, const nh_explicit_request *request)
     c->most_named = request->rival ? request->rival->integrals : most_integrals;
     for (size_t j = 0; j < n; j++) {
         nh_ex e = request->current[j];
-        c->current[j] = nh_combined_coordinates_in(c->combined, d, c->fixed ? nh_fixed_values(o, c->fixed, e) : e);
+        c->current[j] = nh_combined_coordinates_in(c->combined, d, c->fixed ? nh_fixed_values(model, c->fixed, e) : e);
     }
-    for (size_t i = 0; i < o->system->parameters && c->symbols < most_symbols - most_constants; i++)
-        c->symbol[c->symbols++] = o->parameter[i];
+    for (size_t i = 0; i < model->system->parameters && c->symbols < most_symbols - most_constants; i++)
+        c->symbol[c->symbols++] = model->parameter[i];
     c->s = state[m->parameter];
     c->solved[m->parameter] = true;
     c->value[m->parameter] = c->s;
@@ -184,20 +184,20 @@ void nh_explicit_forms_clear(nh_explicit_forms *forms)
     *forms = (nh_explicit_forms){0};
 }
 
-nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *o, const nh_explicit_request *request,
+nh_explicit_motion *nh_explicit_motion_along(nh_arena *arena, const nh_model *model, const nh_explicit_request *request,
                                              size_t parameter)
 {
     enum { pair = 2 };
     nh_explicit_curve c = {.arena = arena,
-                           .o = o,
-                           .d = o->dag,
+                           .o = model,
+                           .d = model->dag,
                            .points = request->points,
                            .options = request->options,
                            .fixed = request->fixed,
                            .forms = request->forms};
     bool linear = request->linear;
     c.m = nh_arena_alloc(arena, sizeof *c.m);
-    *c.m = (nh_explicit_motion){.states = 1 + o->m + o->n, .parameter = parameter, .fixed = request->fixed};
+    *c.m = (nh_explicit_motion){.states = 1 + model->m + model->n, .parameter = parameter, .fixed = request->fixed};
     if (!start(&c, request) || nh_is_zero(c.d, c.rate[parameter])) return NULL;
     bool more = true;
     while (more && !nh_budget_spent())

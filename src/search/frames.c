@@ -37,14 +37,14 @@ static nh_ex *copy(nh_arena *arena, size_t n, const nh_ex *from)
     return out;
 }
 
-static frame frame_of(nh_arena *arena, const nh_model *o)
+static frame frame_of(nh_arena *arena, const nh_model *model)
 {
-    const nh_system *s = o->system;
-    frame f = {.o = o, .system = s, .d = o->dag, .m = s->coordinates};
+    const nh_system *system = model->system;
+    frame f = {.o = model, .system = system, .d = model->dag, .m = system->coordinates};
     f.velocity = nh_arena_alloc(arena, (f.m + 1) * sizeof *f.velocity);
     f.u = nh_arena_alloc(arena, (f.m + 1) * sizeof *f.u);
     for (size_t i = 0; i < f.m; i++) {
-        f.velocity[i] = s->coordinate[i].v;
+        f.velocity[i] = system->coordinate[i].v;
         f.u[i] = nh_symbol_fresh(f.d, "u");
     }
     f.map = copy(arena, f.m, f.u);
@@ -170,32 +170,32 @@ static nh_ex with_solved(const frame *f, nh_ex e)
 /* The system with the remaining velocities as quasi-velocities; NULL: the constraints give no constant coefficients. */
 static nh_system *system_in(frame *f, nh_arena *arena)
 {
-    nh_system *s = nh_other_system_copy(arena, f->system, 0, 0);
-    for (size_t a = 0; a < s->constraints; a++) {
+    nh_system *system = nh_other_system_copy(arena, f->system, 0, 0);
+    for (size_t a = 0; a < system->constraints; a++) {
         nh_ex e = with_solved(f, constraint(f, a));
         if (!nh_is_zero(f->d, e) && !solve_for_one(f, e)) return NULL;
     }
-    s->quasi_velocity = nh_arena_alloc(arena, (f->m + 1) * sizeof *s->quasi_velocity);
-    s->quasi_map = nh_arena_alloc(arena, (f->m + 1) * sizeof *s->quasi_map);
+    system->quasi_velocity = nh_arena_alloc(arena, (f->m + 1) * sizeof *system->quasi_velocity);
+    system->quasi_map = nh_arena_alloc(arena, (f->m + 1) * sizeof *system->quasi_map);
     for (size_t i = 0; i < f->m; i++) {
-        s->quasi_map[i] = with_solved(f, f->map[i]);
-        if (!f->solved[i]) s->quasi_velocity[s->quasi++] = f->u[i];
+        system->quasi_map[i] = with_solved(f, f->map[i]);
+        if (!f->solved[i]) system->quasi_velocity[system->quasi++] = f->u[i];
     }
-    s->dependents = 0;
-    return s;
+    system->dependents = 0;
+    return system;
 }
 
 /* The proved currents of one analysis as currents of the other, where they are proved in its velocities, too: long
  * formulas may not be.  `value`: what velocities of the first are in the second. */
 static void hand_over(nh_stage_solver *to, const nh_analysis *from, size_t n, const nh_ex *velocity, const nh_ex *value)
 {
-    const nh_model *o = to->r->model;
+    const nh_model *model = to->r->model;
     for (size_t k = 0; k < from->count && !nh_stage_solver_done(to); k++) {
         if (from->found[k].series || !from->found[k].proof.proved) continue;
-        nh_ex e = nh_model_compose(o, nh_substitute(o->dag, from->found[k].phi, n, velocity, value));
-        e = nh_simplify_short(o->dag, e, 0);
+        nh_ex e = nh_model_compose(model, nh_substitute(model->dag, from->found[k].phi, n, velocity, value));
+        e = nh_simplify_short(model->dag, e, 0);
         if (nh_currents_known(to->bench, e, true)) continue;
-        if (!nh_prove_claim(o, e, (nh_claim){.free = true}, &to->r->options).proved) continue;
+        if (!nh_prove_claim(model, e, (nh_claim){.free = true}, &to->r->options).proved) continue;
         nh_stage_solver_certify(to, e, "integration in velocities along and across headings");
     }
 }
@@ -204,23 +204,23 @@ void nh_frames_search(nh_stage_solver *solver)
 {
     enum { many = 8 };               /* constraints of systems whose equations are too long to be integrated */
     static const double part = 0.04; /* of the work: what is short is found with much less */
-    nh_analysis *r = solver->r;
+    nh_analysis *result = solver->r;
     nh_stage_solver x;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!r->system->constraints || r->system->constraints > many || r->system->quasi || r->model->chart->implicit ||
-        nh_late())
+    if (!result->system->constraints || result->system->constraints > many || result->system->quasi ||
+        result->model->chart->implicit || nh_late())
         return;
-    frame f = frame_of(r->arena, r->model);
+    frame f = frame_of(result->arena, result->model);
     turn_all(&f);
-    nh_system *system = f.turns ? system_in(&f, r->arena) : NULL;
+    nh_system *system = f.turns ? system_in(&f, result->arena) : NULL;
     if (!system) return;
     nh_progress("integration in velocities along and across headings", -1);
-    nh_analysis *other = nh_other_system_open(r, system, NH_CHART_AUTO);
+    nh_analysis *other = nh_other_system_open(result, system, NH_CHART_AUTO);
     if (!other) return;
-    nh_budget_begin(part * r->options.work);
+    nh_budget_begin(part * result->options.work);
     if (other->model->chart->quasi && nh_stage_solver_begin(&x, other, &ignored)) {
-        hand_over(&x, r, f.m, f.velocity, system->quasi_map);
+        hand_over(&x, result, f.m, f.velocity, system->quasi_map);
         nh_slopes_search(&x);
         nh_quadratures_search(&x);
         hand_over(solver, other, f.m, f.u, f.back);

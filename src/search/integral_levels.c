@@ -24,14 +24,14 @@ typedef struct {
 } levels;
 
 /* Is it linear in the velocities, perhaps with a part without them, and does it contain one? */
-static bool is_linear(const nh_model *o, nh_ex phi)
+static bool is_linear(const nh_model *model, nh_ex phi)
 {
     bool moves = false;
-    for (size_t i = 0; i < o->n; i++) {
-        nh_ex slope = nh_simplify_short(o->dag, nh_diff(o->dag, phi, o->chart->w[i]), 0);
-        for (size_t j = 0; j < o->n; j++)
-            if (nh_depends(o->dag, slope, o->chart->w[j])) return false;
-        moves |= !nh_is_zero(o->dag, slope);
+    for (size_t i = 0; i < model->n; i++) {
+        nh_ex slope = nh_simplify_short(model->dag, nh_diff(model->dag, phi, model->chart->w[i]), 0);
+        for (size_t j = 0; j < model->n; j++)
+            if (nh_depends(model->dag, slope, model->chart->w[j])) return false;
+        moves |= !nh_is_zero(model->dag, slope);
     }
     return moves;
 }
@@ -60,9 +60,9 @@ static double value_of(const levels *x, nh_ex e)
 static void gather(levels *x)
 {
     enum { longest = 60 };
-    const nh_analysis *r = x->solver->r;
-    for (size_t k = 0; k < r->count && x->count < most_levels && x->count + 1 < x->o->n; k++) {
-        const nh_current *f = &r->found[k];
+    const nh_analysis *result = x->solver->r;
+    for (size_t k = 0; k < result->count && x->count < most_levels && x->count + 1 < x->o->n; k++) {
+        const nh_current *f = &result->found[k];
         bool usable = !f->series && f->proof.all_parameters && f->has_in_velocities &&
                       f->independence == NH_INDEPENDENT && !nh_depends(x->d, f->phi, x->o->system->t);
         if (!usable || nh_complexity(x->d, f->in_velocities) > longest || !is_linear(x->o, f->phi)) continue;
@@ -98,17 +98,17 @@ static void take(const levels *x, const nh_current *f)
 void nh_integral_levels_search(nh_stage_solver *solver)
 {
     static const double part = 0.04; /* of the work: what is short is found with much less */
-    nh_analysis *r = solver->r;
-    levels x = {.solver = solver, .o = r->model, .d = r->model->dag};
+    nh_analysis *result = solver->r;
+    levels x = {.solver = solver, .o = result->model, .d = result->model->dag};
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (r->derived || r->model->chart->implicit || nh_late()) return;
+    if (result->derived || result->model->chart->implicit || nh_late()) return;
     gather(&x);
     if (!x.count) return;
     nh_progress("the levels of linear integrals", -1);
-    nh_analysis *on = nh_other_system_open(r, system_on(&x, r->arena, r->system), NH_CHART_AUTO);
+    nh_analysis *on = nh_other_system_open(result, system_on(&x, result->arena, result->system), NH_CHART_AUTO);
     if (!on) return;
-    nh_budget_begin(part * r->options.work);
+    nh_budget_begin(part * result->options.work);
     nh_stage_solver y;
     if (nh_stage_solver_begin(&y, on, &ignored)) {
         y.words = nh_dictionary_of(on->model);

@@ -64,13 +64,13 @@ static nh_ex magnetic(const nh_kinetic *k, const nh_ex *a, const nh_generator *g
 
 /* The momenta of the isometries, and those of the magnetic parts that are no numbers; 0 where the metric has none or is
  * constant (its isometries are among the polynomials). */
-static size_t momenta(const nh_stage_solver *x, nh_ex *P, list *also)
+static size_t momenta(const nh_stage_solver *solver, nh_ex *P, list *also)
 {
-    nh_analysis *r = x->r;
-    const nh_model *o = r->model;
+    nh_analysis *r = solver->r;
+    const nh_model *model = r->model;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_kinetic *k = nh_kinetic_metric(o, (uint64_t)r->options.seed + 909, &ignored);
+    nh_kinetic *k = nh_kinetic_metric(model, (uint64_t)r->options.seed + 909, &ignored);
     nh_jets *jets = NULL;
     nh_generators found = {0};
     nh_ex *a = NULL;
@@ -98,15 +98,15 @@ static size_t momenta(const nh_stage_solver *x, nh_ex *P, list *also)
 }
 
 /* 1, cos, sin to the given harmonic of every angle by itself. */
-static list harmonics(const nh_stage_solver *x, int most)
+static list harmonics(const nh_stage_solver *solver, int most)
 {
-    const nh_model *o = x->r->model;
-    nh_dag *d = o->dag;
+    const nh_model *model = solver->r->model;
+    nh_dag *d = model->dag;
     list l = {0};
     put(&l, nh_int(d, 1));
-    for (size_t s = 0; s < o->m; s++)
-        for (int k = 1; k <= most && o->system->coordinate[s].type == NH_ANGLE; k++) {
-            nh_ex angle = nh_mul(d, nh_int(d, k), o->system->coordinate[s].q);
+    for (size_t s = 0; s < model->m; s++)
+        for (int k = 1; k <= most && model->system->coordinate[s].type == NH_ANGLE; k++) {
+            nh_ex angle = nh_mul(d, nh_int(d, k), model->system->coordinate[s].q);
             put(&l, nh_call(d, NH_COS, angle));
             put(&l, nh_call(d, NH_SIN, angle));
         }
@@ -115,15 +115,15 @@ static list harmonics(const nh_stage_solver *x, int most)
 
 /* Functions that a potential may require: the system's functions, lengths, harmonics, and products of the functions
  * with harmonics. */
-static nh_family functions_family(const nh_stage_solver *x, int most_harmonic, nh_family *part)
+static nh_family functions_family(const nh_stage_solver *solver, int most_harmonic, nh_family *part)
 {
-    nh_arena *arena = x->r->arena;
+    nh_arena *arena = solver->r->arena;
     list *w = nh_arena_alloc(arena, sizeof *w), *f = nh_arena_alloc(arena, sizeof *f);
-    *w = harmonics(x, most_harmonic);
-    put(f, nh_int(x->r->model->dag, 1));
-    for (size_t i = 0; i < x->words.atoms; i++) put(f, x->words.atom[i]);
-    for (size_t i = 0; i < x->words.potentials; i++) put(f, x->words.potential[i]);
-    for (size_t i = 0; i < x->words.lengths; i++) put(f, x->words.length[i]);
+    *w = harmonics(solver, most_harmonic);
+    put(f, nh_int(solver->r->model->dag, 1));
+    for (size_t i = 0; i < solver->words.atoms; i++) put(f, solver->words.atom[i]);
+    for (size_t i = 0; i < solver->words.potentials; i++) put(f, solver->words.potential[i]);
+    for (size_t i = 0; i < solver->words.lengths; i++) put(f, solver->words.length[i]);
     part[0] = (nh_family){.kind = NH_TERMS, .terms = w->n, .term = w->e};
     part[1] = (nh_family){.kind = NH_TERMS, .terms = f->n, .term = f->e};
     return (nh_family){.kind = NH_FAMILY_PRODUCT, .parts = 2, .part = part};
@@ -131,19 +131,20 @@ static nh_family functions_family(const nh_stage_solver *x, int most_harmonic, n
 
 /* Under constraints with coefficients that depend on two angles: of a ball that rolls on a sphere the spin about the
  * normal, n . w with n = (sin a cos b, sin a sin b, cos a). */
-static void on_a_sphere(nh_stage_solver *x, size_t n, const nh_ex *P)
+static void on_a_sphere(nh_stage_solver *solver, size_t n, const nh_ex *P)
 {
     enum { waves = 3 };
-    nh_analysis *r = x->r;
-    const nh_model *o = r->model;
-    nh_dag *d = o->dag;
-    nh_family_list families = {r->arena, o, &x->words, NULL, 0};
+    nh_analysis *result = solver->r;
+    const nh_model *model = result->model;
+    nh_dag *d = model->dag;
+    nh_family_list families = {result->arena, model, &solver->words, NULL, 0};
     nh_expr_set momenta = {0};
     nh_expr_set_put_all(&momenta, n, P);
-    for (size_t a = 0; a < o->m; a++)
-        for (size_t b = 0; b < a && !nh_stage_solver_done(x); b++) {
-            if (o->system->coordinate[a].type != NH_ANGLE || o->system->coordinate[b].type != NH_ANGLE) continue;
-            nh_ex qa = o->system->coordinate[a].q, qb = o->system->coordinate[b].q, one = nh_int(d, 1);
+    for (size_t a = 0; a < model->m; a++)
+        for (size_t b = 0; b < a && !nh_stage_solver_done(solver); b++) {
+            if (model->system->coordinate[a].type != NH_ANGLE || model->system->coordinate[b].type != NH_ANGLE)
+                continue;
+            nh_ex qa = model->system->coordinate[a].q, qb = model->system->coordinate[b].q, one = nh_int(d, 1);
             nh_ex left[waves] = {one, nh_call(d, NH_COS, qa), nh_call(d, NH_SIN, qa)},
                   right[waves] = {one, nh_call(d, NH_COS, qb), nh_call(d, NH_SIN, qb)};
             nh_expr_set products = {0};
@@ -152,36 +153,36 @@ static void on_a_sphere(nh_stage_solver *x, size_t n, const nh_ex *P)
             nh_family factor[] = {nh_family_list_terms(&families, &momenta),
                                   nh_family_list_terms(&families, &products)};
             nh_family all = nh_family_list_product(&families, 2, factor);
-            if (nh_stage_solver_promising(x, 1, &all))
-                nh_stage_solver_stage(x, "momenta of the isometries times waves of two angles", 1, &all);
+            if (nh_stage_solver_promising(solver, 1, &all))
+                nh_stage_solver_stage(solver, "momenta of the isometries times waves of two angles", 1, &all);
         }
 }
 
-void nh_isometries_search(nh_stage_solver *x)
+void nh_isometries_search(nh_stage_solver *solver)
 {
-    nh_analysis *r = x->r;
-    const nh_model *o = r->model;
-    if (o->m > most_coordinates ||
-        (nh_counted_covers(&x->counted, 1, true) && nh_counted_covers(&x->counted, 2, false)))
+    nh_analysis *result = solver->r;
+    const nh_model *model = result->model;
+    if (model->m > most_coordinates ||
+        (nh_counted_covers(&solver->counted, 1, true) && nh_counted_covers(&solver->counted, 2, false)))
         return;
     nh_progress("isometries of the kinetic energy", -1);
-    nh_ex *P = nh_arena_alloc(r->arena, most_momenta * sizeof *P),
-          *PP = nh_arena_alloc(r->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
-    list *also = nh_arena_alloc(r->arena, sizeof *also);
+    nh_ex *P = nh_arena_alloc(result->arena, most_momenta * sizeof *P),
+          *PP = nh_arena_alloc(result->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
+    list *also = nh_arena_alloc(result->arena, sizeof *also);
     also->n = 0;
-    put(also, x->r->system->t); /* a force that is uniform along the field */
-    size_t n = momenta(x, P, also), squares = 0;
+    put(also, solver->r->system->t); /* a force that is uniform along the field */
+    size_t n = momenta(solver, P, also), squares = 0;
     if (n == 0) return;
-    nh_family part[4], *all = nh_arena_alloc(r->arena, 3 * sizeof *all);
+    nh_family part[4], *all = nh_arena_alloc(result->arena, 3 * sizeof *all);
     all[0] = (nh_family){.kind = NH_TERMS, .terms = n, .term = P};
-    all[1] = functions_family(x, 1, part);
+    all[1] = functions_family(solver, 1, part);
     all[2] = (nh_family){.kind = NH_TERMS, .terms = also->n, .term = also->e};
-    nh_stage_solver_stage(x, "momenta of the isometries of the kinetic energy, and functions", 3, all);
-    if (o->k && !nh_counted_covers(&x->counted, 1, false)) on_a_sphere(x, n, P);
-    if (nh_stage_solver_done(x)) return;
+    nh_stage_solver_stage(solver, "momenta of the isometries of the kinetic energy, and functions", 3, all);
+    if (model->k && !nh_counted_covers(&solver->counted, 1, false)) on_a_sphere(solver, n, P);
+    if (nh_stage_solver_done(solver)) return;
     for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++) PP[squares++] = nh_mul(o->dag, P[i], P[j]);
+        for (size_t j = 0; j <= i; j++) PP[squares++] = nh_mul(model->dag, P[i], P[j]);
     all[0] = (nh_family){.kind = NH_TERMS, .terms = squares, .term = PP};
-    all[1] = functions_family(x, 2, part + 2);
-    nh_stage_solver_stage(x, "their products, and functions", 2, all);
+    all[1] = functions_family(solver, 2, part + 2);
+    nh_stage_solver_stage(solver, "their products, and functions", 2, all);
 }

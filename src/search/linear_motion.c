@@ -71,15 +71,15 @@ static void find_blocks(linear *l)
 /* Row i of A; false when z_i' is not linear, or depends on t otherwise. */
 static bool row(linear *l, size_t i, nh_ex rate)
 {
-    const nh_model *o = l->x->r->model;
-    nh_ex b = rate, zero = nh_int(o->dag, 0);
-    if (nh_complexity(o->dag, rate) > longest) return false;
+    const nh_model *model = l->x->r->model;
+    nh_ex b = rate, zero = nh_int(model->dag, 0);
+    if (nh_complexity(model->dag, rate) > longest) return false;
     for (size_t j = 0; j < l->size; j++) {
-        if (!nh_depends(o->dag, rate, l->z[j])) continue;
-        nh_ex slope = nh_simplify_short(o->dag, nh_diff(o->dag, rate, l->z[j]), 0);
-        if (!nh_model_is_constant(o, slope)) return false;
+        if (!nh_depends(model->dag, rate, l->z[j])) continue;
+        nh_ex slope = nh_simplify_short(model->dag, nh_diff(model->dag, rate, l->z[j]), 0);
+        if (!nh_model_is_constant(model, slope)) return false;
         l->entry[i + j * l->size] = slope;
-        b = nh_substitute(o->dag, b, 1, &l->z[j], &zero);
+        b = nh_substitute(model->dag, b, 1, &l->z[j], &zero);
     }
     l->b[i] = b;
     return true;
@@ -87,11 +87,11 @@ static bool row(linear *l, size_t i, nh_ex rate)
 
 static bool read_matrix(linear *l)
 {
-    const nh_model *o = l->x->r->model;
-    if (o->chart->implicit) return false;
-    for (size_t i = 0; i < l->size; i++) l->z[i] = o->chart->symbol[1 + i];
+    const nh_model *model = l->x->r->model;
+    if (model->chart->implicit) return false;
+    for (size_t i = 0; i < l->size; i++) l->z[i] = model->chart->symbol[1 + i];
     for (size_t i = 0; i < l->size; i++)
-        if (!row(l, i, i < o->m ? o->rho[i] : o->a[i - o->m])) return false;
+        if (!row(l, i, i < model->m ? model->rho[i] : model->a[i - model->m])) return false;
     return nh_linear_motion_drives(l);
 }
 
@@ -109,19 +109,20 @@ static bool nearly_equal(size_t n, const double *re, const double *im)
 }
 
 /* Eigenvalues of the block, as it is at this model's parameters. */
-static bool eigenvalues(const linear *l, const nh_model *o, double *re, double *im)
+static bool eigenvalues(const linear *l, const nh_model *model, double *re, double *im)
 {
     size_t n = l->count;
     nh_ex *e = nh_alloc_array(n * n + 1, sizeof *e);
     double *A = nh_alloc_array(n * n + 1, sizeof *A);
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < n; i++) e[i + j * n] = l->entry[l->of[i] + l->of[j] * l->size];
-    nh_tape_constants(o->dag, n * n, e, o->system->parameters, o->parameter, o->parameter_value, A);
+    nh_tape_constants(model->dag, n * n, e, model->system->parameters, model->parameter, model->parameter_value, A);
     bool good = nh_eigen(n, A, re, im, NULL);
     if (good && n <= most_close && nearly_equal(n, re, im)) {
-        nh_ball *ball = nh_ball_create(o->dag, bits);
-        for (size_t k = 0; k < o->system->parameters; k++)
-            nh_ball_set_expression(ball, o->parameter[k], nh_number(o->dag, nh_num_decimal(o->parameter_value[k])));
+        nh_ball *ball = nh_ball_create(model->dag, bits);
+        for (size_t k = 0; k < model->system->parameters; k++)
+            nh_ball_set_expression(ball, model->parameter[k],
+                                   nh_number(model->dag, nh_num_decimal(model->parameter_value[k])));
         nh_ball_eigenvalues(ball, n, e, re, im); /* or those of doubles stay */
         nh_ball_free(ball);
     }
@@ -190,18 +191,18 @@ bool nh_linear_motion_velocity(const linear *l, size_t i, size_t *j)
 /* q'' = B q: the coordinates of the block, and in the same places their velocities; 0 where it is not so. */
 static size_t second_order(const linear *l, size_t *q, size_t *w)
 {
-    const nh_model *o = l->x->r->model;
+    const nh_model *model = l->x->r->model;
     size_t n = 0;
     bool is = l->drives == 1;
     for (size_t k = 0; k < l->count && is; k++) {
         size_t i = l->of[k];
-        is = nh_is_zero(o->dag, l->b[i]);
+        is = nh_is_zero(model->dag, l->b[i]);
         if (i < l->places) {
             q[n] = i;
             is = is && nh_linear_motion_velocity(l, i, &w[n++]);
         }
         for (size_t j = l->places; j < l->size && i >= l->places; j++)
-            is = is && nh_is_zero(o->dag, l->entry[i + j * l->size]);
+            is = is && nh_is_zero(model->dag, l->entry[i + j * l->size]);
     }
     return is && 2 * n == l->count ? n : 0;
 }
@@ -259,8 +260,8 @@ static void forms_with_rate(linear *l, size_t n, const nh_ex *z, const nh_ex *A,
 /* Velocities come first, in which forms are to be simple. */
 static void quadratic_forms(linear *l)
 {
-    const nh_model *o = l->x->r->model;
-    nh_dag *d = o->dag;
+    const nh_model *model = l->x->r->model;
+    nh_dag *d = model->dag;
     size_t n = l->count, *of = nh_alloc_array(n + 1, sizeof *of), at = 0;
     bool constant_force = false;
     for (int positions = 0; positions < 2; positions++)
@@ -387,9 +388,9 @@ static void solve_block(linear *l)
     nh_free(re);
 }
 
-nh_linear_motion_block nh_linear_motion_create(nh_stage_solver *x, size_t size, size_t places)
+nh_linear_motion_block nh_linear_motion_create(nh_stage_solver *solver, size_t size, size_t places)
 {
-    return (linear){.x = x,
+    return (linear){.x = solver,
                     .size = size,
                     .places = places,
                     .z = nh_alloc_array(size + 1, sizeof(nh_ex)),
@@ -408,10 +409,10 @@ void nh_linear_motion_clear(linear *l)
     nh_free(l->z);
 }
 
-static linear linear_of(nh_stage_solver *x, bool *is)
+static linear linear_of(nh_stage_solver *solver, bool *is)
 {
-    const nh_model *o = x->r->model;
-    linear l = nh_linear_motion_create(x, o->m + o->n, o->m);
+    const nh_model *model = solver->r->model;
+    linear l = nh_linear_motion_create(solver, model->m + model->n, model->m);
     *is = read_matrix(&l);
     return l;
 }
@@ -432,10 +433,10 @@ void nh_linear_motion_solve(linear *l)
     }
 }
 
-void nh_linear_motion_search(nh_stage_solver *x)
+void nh_linear_motion_search(nh_stage_solver *solver)
 {
     bool is;
-    linear l = linear_of(x, &is);
+    linear l = linear_of(solver, &is);
     if (is) nh_linear_motion_solve(&l);
     nh_linear_motion_clear(&l);
 }

@@ -70,14 +70,14 @@ static void put_waves(nh_dag *d, size_t *n, nh_ex *list, size_t most, nh_ex argu
 }
 
 /* The function calls of the equations of motion. */
-static size_t calls_in(const nh_model *o, size_t most, nh_ex *out)
+static size_t calls_in(const nh_model *model, size_t most, nh_ex *out)
 {
     NH_LIST(own);
-    const nh_ex *list[] = {o->rho, o->M, o->a};
-    size_t n = 0, length[] = {o->m, o->n * o->n, o->n};
+    const nh_ex *list[] = {model->rho, model->M, model->a};
+    size_t n = 0, length[] = {model->m, model->n * model->n, model->n};
     for (size_t part = 0; part < sizeof list / sizeof *list; part++)
         for (size_t k = 0; k < length[part]; k++) {
-            size_t found = nh_functions_in(o->dag, list[part][k], &own);
+            size_t found = nh_functions_in(model->dag, list[part][k], &own);
             for (size_t i = 0; i < found; i++) put(&n, out, most, own[i]);
         }
     return n;
@@ -424,13 +424,13 @@ static void set_equations(const problem *p, const nh_ex *c, linear *l)
     }
 }
 
-static void solve(const problem *p, nh_stage_solver *x)
+static void solve(const problem *p, nh_stage_solver *solver)
 {
     size_t D = p->relations;
     nh_ex *c = nh_alloc_array(D * p->columns + 1, sizeof *c);
     bool good = true;
-    for (size_t i = 0; i < D && good; i++) good = solve_relation(p, i, &x->r->options, c + i * p->columns);
-    linear l = nh_linear_motion_create(x, 2 * D, D);
+    for (size_t i = 0; i < D && good; i++) good = solve_relation(p, i, &solver->r->options, c + i * p->columns);
+    linear l = nh_linear_motion_create(solver, 2 * D, D);
     if (good) set_equations(p, c, &l);
     if (good && nh_linear_motion_drives(&l)) nh_linear_motion_solve(&l);
     nh_linear_motion_clear(&l);
@@ -438,24 +438,25 @@ static void solve(const problem *p, nh_stage_solver *x)
 }
 
 /* Searches the currents of such functions.  False where there are none, but may be in words with functions of t. */
-static bool search_words(nh_stage_solver *x, bool timed)
+static bool search_words(nh_stage_solver *solver, bool timed)
 {
-    const nh_model *o = x->r->model;
-    problem p = {.o = o, .d = o->dag, .known = &x->words, .equations = nh_jet_equations_create(o, false, true)};
+    const nh_model *model = solver->r->model;
+    problem p = {
+        .o = model, .d = model->dag, .known = &solver->words, .equations = nh_jet_equations_create(model, false, true)};
     bool autonomous = !p.equations->time;
     if (!p.equations->obstacle) find_words(&p, timed);
     bool found = p.words && find_relations(&p) && find_closed(&p) && is_hidden(&p);
-    if (found) solve(&p, x);
+    if (found) solve(&p, solver);
     nh_free(p.pivot);
     nh_free(p.relation);
     nh_jet_equations_free(p.equations);
     return found || autonomous;
 }
 
-void nh_linear_motion_functions(nh_stage_solver *x)
+void nh_linear_motion_functions(nh_stage_solver *solver)
 {
     /* all currents of such equations are functions of those that are linear in (u, u'), with functions of t */
-    if (x->r->model->chart->implicit || nh_counted_covers(&x->counted, 1, true)) return;
+    if (solver->r->model->chart->implicit || nh_counted_covers(&solver->counted, 1, true)) return;
     nh_progress("linear equations that the coordinates hide", nh_budget_part());
-    if (!search_words(x, false)) search_words(x, true);
+    if (!search_words(solver, false)) search_words(solver, true);
 }

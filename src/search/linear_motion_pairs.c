@@ -51,12 +51,12 @@ size_t nh_linear_motion_waves_of_two(const linear *l, bool turns, nh_ex out[2])
 
 bool nh_linear_motion_complex_pair(const linear *l, nh_complex_pair *out)
 {
-    const nh_model *o = l->x->r->model;
+    const nh_model *model = l->x->r->model;
     size_t n = 0, v[2], q[2];
     bool is = l->count == 4 && l->drives == 1;
     for (size_t k = 0; k < l->count && is; k++) {
         size_t i = l->of[k];
-        is = nh_is_zero(o->dag, l->b[i]);
+        is = nh_is_zero(model->dag, l->b[i]);
         if (i >= l->places) continue;
         is = is && n < 2 && nh_linear_motion_velocity(l, i, &v[n]);
         if (is) q[n++] = i;

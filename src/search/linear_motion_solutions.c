@@ -55,11 +55,11 @@ static bool add_drives(linear *l, nh_ex e)
 /* b of one row, from which the terms with z are taken, and the derivatives of its functions. */
 static bool drive(linear *l, nh_ex b)
 {
-    const nh_model *o = l->x->r->model;
+    const nh_model *model = l->x->r->model;
     size_t first = l->drives;
-    bool fits = add_drives(l, nh_simplify_short(o->dag, b, 0));
+    bool fits = add_drives(l, nh_simplify_short(model->dag, b, 0));
     for (size_t i = first; i < l->drives && fits; i++)
-        fits = add_drives(l, nh_simplify_short(o->dag, nh_diff(o->dag, l->drive[i], o->system->t), 0));
+        fits = add_drives(l, nh_simplify_short(model->dag, nh_diff(model->dag, l->drive[i], model->system->t), 0));
     return fits;
 }
 
@@ -78,24 +78,24 @@ bool nh_linear_motion_drives(linear *l)
  * l' + A^T l. */
 static nh_relation_space *space_of(const linear *l, size_t n, const nh_ex *function)
 {
-    const nh_model *o = l->x->r->model;
-    nh_dag *d = o->dag;
+    const nh_model *model = l->x->r->model;
+    nh_dag *d = model->dag;
     size_t rows = l->count, columns = n * rows;
     nh_ex *entry = nh_alloc_array(rows * columns + 1, sizeof *entry);
     for (size_t c = 0; c < columns; c++)
         for (size_t j = 0; j < rows; j++) {
             size_t i = c / n;
             nh_ex f = function[c % n], e = nh_mul(d, f, l->entry[l->of[i] + l->of[j] * l->size]);
-            entry[c * rows + j] = i == j ? nh_add(d, e, nh_diff(d, f, o->system->t)) : e;
+            entry[c * rows + j] = i == j ? nh_add(d, e, nh_diff(d, f, model->system->t)) : e;
         }
     nh_relation_columns q = {.dag = d,
                              .columns = columns,
                              .rows = rows,
                              .entry = entry,
                              .variables = 1,
-                             .variable = &o->system->t,
-                             .parameters = o->system->parameters,
-                             .parameter = o->parameter};
+                             .variable = &model->system->t,
+                             .parameters = model->system->parameters,
+                             .parameter = model->parameter};
     nh_relation_space *space = nh_relation_space_of(l->x->r->arena, &q);
     nh_free(entry);
     return space;
@@ -104,8 +104,8 @@ static nh_relation_space *space_of(const linear *l, size_t n, const nh_ex *funct
 size_t nh_linear_motion_solutions(const linear *l, size_t n, const nh_ex *function)
 {
     nh_stage_solver *x = l->x;
-    const nh_model *o = x->r->model;
-    nh_dag *d = o->dag;
+    const nh_model *model = x->r->model;
+    nh_dag *d = model->dag;
     size_t found = 0, columns = n * l->count;
     nh_relation_space *space = space_of(l, n, function);
     for (size_t k = 0; k < space->proved && !space->obstacle && !nh_stage_solver_done(x); k++) {
@@ -116,7 +116,7 @@ size_t nh_linear_motion_solutions(const linear *l, size_t n, const nh_ex *functi
             state = nh_add(d, state, nh_mul(d, f, l->z[i]));
             drive = nh_add(d, drive, nh_mul(d, f, l->b[i]));
         }
-        if (!nh_stage_solver_integral(x, o->system->t, nh_simplify_short(d, drive, 0), false, &F)) continue;
+        if (!nh_stage_solver_integral(x, model->system->t, nh_simplify_short(d, drive, 0), false, &F)) continue;
         found += nh_stage_solver_certify(x, nh_simplify_short(d, nh_sub(d, state, F), 0),
                                          "states with linear equations, times functions of t");
     }

@@ -41,9 +41,10 @@ static bool lift_further(search *s, size_t degree, const nh_family *all)
 
 enum { most_constants = 10 };
 
-static bool is_constant_of_leaf(const nh_model *o, const nh_current *f)
+static bool is_constant_of_leaf(const nh_model *model, const nh_current *f)
 {
-    return f->proof.proved && !nh_counted_has_velocities(o, f->phi) && !nh_depends(o->dag, f->phi, o->system->t);
+    return f->proof.proved && !nh_counted_has_velocities(model, f->phi) &&
+           !nh_depends(model->dag, f->phi, model->system->t);
 }
 
 /* sqrt(x^2 + y^2) as x^2 + y^2: coefficients are polynomials in that. */
@@ -54,17 +55,18 @@ static nh_ex without_root(nh_dag *d, nh_ex e)
 }
 
 /* Products of what is constant on the leaves of integrable constraints, 1 first: coefficients may depend on it. */
-static size_t constants_of_leaf(const nh_analysis *r, nh_ex out[most_constants])
+static size_t constants_of_leaf(const nh_analysis *result, nh_ex out[most_constants])
 {
     enum { highest = 2 };
-    const nh_model *o = r->model;
+    const nh_model *model = result->model;
     size_t n = 0, first = 0;
-    out[n++] = nh_int(o->dag, 1);
+    out[n++] = nh_int(model->dag, 1);
     for (size_t power = 0; power < highest; power++) {
         size_t last = n;
-        for (size_t k = 0; k < r->count; k++)
-            for (size_t j = first; j < last && n < most_constants && is_constant_of_leaf(o, &r->found[k]); j++) {
-                nh_ex product = nh_mul(o->dag, out[j], without_root(o->dag, r->found[k].phi));
+        for (size_t k = 0; k < result->count; k++)
+            for (size_t j = first; j < last && n < most_constants && is_constant_of_leaf(model, &result->found[k]);
+                 j++) {
+                nh_ex product = nh_mul(model->dag, out[j], without_root(model->dag, result->found[k].phi));
                 bool known = false;
                 for (size_t i = 0; i < n; i++) known |= out[i] == product;
                 if (!known) out[n++] = product;
@@ -110,21 +112,21 @@ typedef enum { LIFT_FOUND, LIFT_KNOWN, LIFT_FAILED } lifted;
 static lifted lift(search *s, size_t degree, bool time, const nh_constructed *c, bool further)
 {
     enum { a_few = 20 };
-    nh_analysis *r = s->solver->r;
-    nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
+    nh_analysis *result = s->solver->r;
+    nh_family *all = nh_arena_alloc(result->arena, sizeof *all);
     nh_ex constant[most_constants];
-    size_t constants = constants_of_leaf(r, constant), terms = 0, once = 0;
-    nh_ex *term = nh_arena_alloc(r->arena, constants * c->terms * sizeof *term),
-          *first_once = nh_arena_alloc(r->arena, constants * c->terms * sizeof *first_once);
+    size_t constants = constants_of_leaf(result, constant), terms = 0, once = 0;
+    nh_ex *term = nh_arena_alloc(result->arena, constants * c->terms * sizeof *term),
+          *first_once = nh_arena_alloc(result->arena, constants * c->terms * sizeof *first_once);
     for (size_t j = 0; j < c->terms; j++)
         for (size_t k = 0; k < constants; k++) {
-            term[terms] = nh_mul(r->model->dag, c->term[j], constant[k]);
+            term[terms] = nh_mul(result->model->dag, c->term[j], constant[k]);
             if (j || !k) first_once[once++] = term[terms];
             terms++;
         }
     *all = (nh_family){.kind = NH_TERMS, .terms = terms, .term = term};
     s->solver->wide = true;
-    const char *name = nh_arena_printf(r->arena, "an integral of degree %zu that the count misses", degree);
+    const char *name = nh_arena_printf(result->arena, "an integral of degree %zu that the count misses", degree);
     nh_lift_result exact = further ? (nh_lift_result){0} : lift_exactly(s, time, once, first_once);
     bool first = exact.general || once > a_few;
     if (first && keep_lifted(s, &exact, once, name)) return LIFT_FOUND;
@@ -252,9 +254,9 @@ static bool construct_up_to(search *s, const nh_completeness *c, manner how, dou
 }
 
 /* Is the number with time in the coefficients no larger than without? */
-static bool adds_nothing(const nh_analysis *r, const nh_completeness *c)
+static bool adds_nothing(const nh_analysis *result, const nh_completeness *c)
 {
-    const nh_completeness *first = &r->completeness[NH_COMPLETE_IN_COORDINATES];
+    const nh_completeness *first = &result->completeness[NH_COMPLETE_IN_COORDINATES];
     return c != first && first->counted && first->missing_at == c->missing_at && c->missing_at &&
            first->count.row[c->missing_at - 1].bound == c->count.row[c->missing_at - 1].bound;
 }
@@ -294,9 +296,9 @@ bool nh_missing_construct(search *s, const nh_completeness *c, bool further)
     if (!wanted) return false;
     size_t degree = further ? c->incomplete_at : c->missing_at;
     nh_ex atom[NH_NAMING_ATOMS];
-    const nh_model *o = s->solver->r->model;
+    const nh_model *model = s->solver->r->model;
     nh_construct_rates rates =
-        nh_construct_rates_of(o, degree, c->count.time, nh_naming_atoms(o, atom), atom, part * work);
+        nh_construct_rates_of(model, degree, c->count.time, nh_naming_atoms(model, atom), atom, part * work);
     manner any = {.further = further, .rates = &rates}, secular = any;
     secular.secular = true;
     work = fmax(work - rates.work, 0);

@@ -12,10 +12,10 @@
 enum { most_defined = 16, most_links = 32, most_tries = 32, bits = 128 };
 
 /* States, parameters, constants and roots at the start; integrals are 0 there. */
-static nh_ball *at_start(const nh_model *o, const nh_explicit_motion *m, const double *z)
+static nh_ball *at_start(const nh_model *model, const nh_explicit_motion *m, const double *z)
 {
-    nh_ball *ball = nh_ball_create(o->dag, bits);
-    nh_exact_parameters(o, ball);
+    nh_ball *ball = nh_ball_create(model->dag, bits);
+    nh_exact_parameters(model, ball);
     for (size_t i = 0; i < m->states; i++) nh_ball_set_double(ball, m->state[i], z[i]);
     for (size_t j = 0; j < m->integrals; j++) nh_ball_set_ratio(ball, m->integral[j].symbol, 0, 1);
     for (size_t j = 0; j < m->constants; j++) nh_ball_set_expression(ball, m->constant[j].symbol, m->constant[j].value);
@@ -171,7 +171,7 @@ static void join(nh_motion_series *out, size_t below, const nh_motion_series_lin
     out->links = below + 1 + above;
 }
 
-nh_motion_series *nh_motion_series_from(nh_arena *arena, const nh_model *o, const nh_explicit_motion *m,
+nh_motion_series *nh_motion_series_from(nh_arena *arena, const nh_model *model, const nh_explicit_motion *m,
                                         const double *z, double low, double high)
 {
     nh_ball_defined define[most_defined];
@@ -186,8 +186,8 @@ nh_motion_series *nh_motion_series_from(nh_arena *arena, const nh_model *o, cons
     bool found = true;
     double best = 0;
     for (int side = 0; side < 2 && found; side++) {
-        nh_ball *ball = at_start(o, m, z);
-        nh_ball_series *series = nh_ball_series_create(o->dag, ball, parameter, defined, define);
+        nh_ball *ball = at_start(model, m, z);
+        nh_ball_series *series = nh_ball_series_create(model->dag, ball, parameter, defined, define);
         beside[side] = nh_arena_alloc(arena, most_links * sizeof *beside[side]);
         trial t = trial_of(arena, series, m);
         if (side == 0) found = next_link(&t, start, 0, &first, &best);
@@ -214,13 +214,13 @@ double nh_motion_series_value(const nh_motion_series_link *l, size_t j, double a
     return sum;
 }
 
-void nh_motion_series_add(nh_analysis *r)
+void nh_motion_series_add(nh_analysis *result)
 {
-    const nh_validation *v = r->validation;
-    const nh_explicit_motion *m = r->motion;
-    size_t width = r->model->m + r->model->n;
+    const nh_validation *v = result->validation;
+    const nh_explicit_motion *m = result->motion;
+    size_t width = result->model->m + result->model->n;
     if (!m || !m->integrals || !v || !v->count) return;
-    double *z = nh_arena_alloc(r->arena, (1 + width) * sizeof *z);
+    double *z = nh_arena_alloc(result->arena, (1 + width) * sizeof *z);
     z[0] = rounded(v->time[0], digits_of_states, 0);
     for (size_t j = 0; j < width; j++) z[1 + j] = rounded(v->state[j], digits_of_states, 0);
     double low = z[m->parameter], high = low;
@@ -230,8 +230,8 @@ void nh_motion_series_add(nh_analysis *r)
     }
     low = rounded(low, digits_of_ends, -1);
     high = rounded(high, digits_of_ends, 1);
-    nh_explicit_motion *own = nh_arena_alloc(r->arena, sizeof *own);
+    nh_explicit_motion *own = nh_arena_alloc(result->arena, sizeof *own);
     *own = *m;
-    own->series = nh_motion_series_from(r->arena, r->model, m, z, low, high);
-    r->motion = own;
+    own->series = nh_motion_series_from(result->arena, result->model, m, z, low, high);
+    result->motion = own;
 }

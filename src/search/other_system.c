@@ -14,9 +14,9 @@ nh_system *nh_other_system_copy(nh_arena *arena, const nh_system *system, size_t
     return s;
 }
 
-void nh_other_system_parameter(nh_system *s, const char *name, nh_ex symbol, double value)
+void nh_other_system_parameter(nh_system *system, const char *name, nh_ex symbol, double value)
 {
-    s->parameter[s->parameters++] =
+    system->parameter[system->parameters++] =
         (nh_parameter){.name = name, .unit = "", .symbol = symbol, .value = value, .written = value};
 }
 

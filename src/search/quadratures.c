@@ -13,46 +13,47 @@
 #include "search/explicit_motion.h"
 
 /* Is the parameter replaced, or does a replaced one depend on it? */
-static bool is_needed(const nh_model *o, const nh_ex *fixed, size_t parameter)
+static bool is_needed(const nh_model *model, const nh_ex *fixed, size_t parameter)
 {
-    for (size_t i = 0; i < o->system->parameters; i++)
-        if (nh_fixed_has(o, fixed, i) && (i == parameter || nh_depends(o->dag, fixed[i], o->parameter[parameter])))
+    for (size_t i = 0; i < model->system->parameters; i++)
+        if (nh_fixed_has(model, fixed, i) &&
+            (i == parameter || nh_depends(model->dag, fixed[i], model->parameter[parameter])))
             return true;
     return false;
 }
 
 /* The parameters that keep their values, where some must: those in functions and exponents of the equations of motion
  * and of the currents, and those that a current needs.  NULL: none. */
-static const nh_ex *special_values(const nh_analysis *r)
+static const nh_ex *special_values(const nh_analysis *result)
 {
-    const nh_model *o = r->model;
+    const nh_model *model = result->model;
     NH_LIST(call);
-    size_t n = o->system->parameters;
+    size_t n = model->system->parameters;
     bool *fixed = nh_alloc_array(n + 1, sizeof *fixed), any = false;
-    for (size_t j = 0; j < o->m + o->n + r->count; j++) {
-        const nh_current *f = j < o->m + o->n ? NULL : &r->found[j - o->m - o->n];
-        nh_ex e = f ? f->phi : j < o->m ? o->rho[j] : o->a[j - o->m];
-        size_t calls = nh_functions_in(o->dag, e, &call);
+    for (size_t j = 0; j < model->m + model->n + result->count; j++) {
+        const nh_current *f = j < model->m + model->n ? NULL : &result->found[j - model->m - model->n];
+        nh_ex e = f ? f->phi : j < model->m ? model->rho[j] : model->a[j - model->m];
+        size_t calls = nh_functions_in(model->dag, e, &call);
         for (size_t p = 0; p < n; p++) {
-            if (f && !f->proof.all_parameters) fixed[p] |= !f->proof.fixed || is_needed(o, f->proof.fixed, p);
-            for (size_t i = 0; i < calls; i++) fixed[p] |= nh_depends(o->dag, call[i], o->parameter[p]);
+            if (f && !f->proof.all_parameters) fixed[p] |= !f->proof.fixed || is_needed(model, f->proof.fixed, p);
+            for (size_t i = 0; i < calls; i++) fixed[p] |= nh_depends(model->dag, call[i], model->parameter[p]);
             any |= fixed[p];
         }
     }
-    const nh_ex *list = any ? nh_fixed_those(o, fixed) : NULL;
+    const nh_ex *list = any ? nh_fixed_those(model, fixed) : NULL;
     nh_free(fixed);
     return list;
 }
 
 /* The currents in closed form; `general`: that hold for all values of the parameters. */
-static size_t gather(const nh_stage_solver *x, bool general, nh_ex **current)
+static size_t gather(const nh_stage_solver *solver, bool general, nh_ex **current)
 {
-    const nh_analysis *r = x->r;
+    const nh_analysis *r = solver->r;
     size_t n = 0;
     nh_ex *list = *current = nh_arena_alloc(r->arena, (r->count + r->model->m + r->model->n + 1) * sizeof *list);
     for (size_t k = 0; k < r->count; k++)
         if (!r->found[k].series && (r->found[k].proof.all_parameters || !general)) list[n++] = r->found[k].phi;
-    return nh_quadratures_with_parts(r, x->ranges, n, list);
+    return nh_quadratures_with_parts(r, solver->ranges, n, list);
 }
 
 /* Is it better?  More states are; then no integrals without closed form; then no roots; then time as the parameter;
@@ -85,39 +86,39 @@ static int by_generality(const void *left, const void *right)
     return a->e < b->e ? -1 : a->e > b->e;
 }
 
-static void harvest(nh_stage_solver *x, size_t count, const nh_explicit_motion *const *tried)
+static void harvest(nh_stage_solver *solver, size_t count, const nh_explicit_motion *const *tried)
 {
-    const nh_model *o = x->r->model;
+    const nh_model *model = solver->r->model;
     size_t n = 0, most = 1;
     for (size_t k = 0; k < count; k++) most += tried[k]->constants;
     constant *list = nh_alloc_array(most, sizeof *list);
     for (size_t k = 0; k < count; k++)
         for (size_t j = 0; j < tried[k]->constants; j++) {
             if (!tried[k]->constant[j].integrated || tried[k]->constant[j].at_start) continue;
-            nh_ex e = nh_quadratures_form(x->r, tried[k]->constant[j].value, !tried[k]->fixed);
+            nh_ex e = nh_quadratures_form(solver->r, tried[k]->constant[j].value, !tried[k]->fixed);
             list[n++] = (constant){.e = e,
                                    .fixed = tried[k]->fixed != NULL,
-                                   .timed = nh_depends(o->dag, e, o->system->t),
-                                   .length = nh_complexity(o->dag, e)};
+                                   .timed = nh_depends(model->dag, e, model->system->t),
+                                   .length = nh_complexity(model->dag, e)};
         }
     qsort(list, n, sizeof *list, by_generality);
-    for (size_t j = 0; j < n && !nh_stage_solver_done(x); j++)
-        nh_stage_solver_certify(x, list[j].e, "integration of one equation after another");
+    for (size_t j = 0; j < n && !nh_stage_solver_done(solver); j++)
+        nh_stage_solver_certify(solver, list[j].e, "integration of one equation after another");
     nh_free(list);
 }
 
 /* ---- the whole ---- */
 
 /* With every state as the parameter; the best one, or the one that was best before. */
-static const nh_explicit_motion *try_all(nh_stage_solver *x, nh_explicit_request request,
+static const nh_explicit_motion *try_all(nh_stage_solver *solver, nh_explicit_request request,
                                          const nh_explicit_motion *best, size_t *count,
                                          const nh_explicit_motion **tried)
 {
-    const nh_model *o = x->r->model;
-    size_t states = 1 + o->m + o->n;
+    const nh_model *model = solver->r->model;
+    size_t states = 1 + model->m + model->n;
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
         request.rival = best && best->known == states ? best : NULL;
-        const nh_explicit_motion *m = nh_explicit_motion_along(x->r->arena, o, &request, i);
+        const nh_explicit_motion *m = nh_explicit_motion_along(solver->r->arena, model, &request, i);
         if (!m && request.combined && i == 0) return best;
         if (!m) continue;
         tried[(*count)++] = m;
@@ -136,17 +137,17 @@ static const char *joined(nh_arena *arena, const char *all, const char *one)
 
 /* The region in which its constants do not jump, and are real, which may hold for bound motions only; NULL:
  * everywhere. */
-static const char *region_of(nh_stage_solver *x, const nh_explicit_motion *m)
+static const char *region_of(nh_stage_solver *solver, const nh_explicit_motion *m)
 {
-    const nh_model *o = x->r->model;
-    nh_arena *arena = x->r->arena;
+    const nh_model *model = solver->r->model;
+    nh_arena *arena = solver->r->arena;
     const char *all = NULL;
     for (size_t j = 0; j < m->constants; j++) {
         nh_ex positive[NH_MOST_REAL_WHERE], value = m->constant[j].value;
-        size_t n = nh_real_where(o, value, positive);
-        all = joined(arena, all, nh_currents_region(x->bench, value, x->r->options.digits / 2, NULL));
+        size_t n = nh_real_where(model, value, positive);
+        all = joined(arena, all, nh_currents_region(solver->bench, value, solver->r->options.digits / 2, NULL));
         for (size_t i = 0; i < n; i++) {
-            char *text = nh_model_is_constant(o, positive[i]) ? NULL : nh_print_string(o->dag, positive[i]);
+            char *text = nh_model_is_constant(model, positive[i]) ? NULL : nh_print_string(model->dag, positive[i]);
             if (text) all = joined(arena, all, nh_arena_printf(arena, "where %s > 0", text));
             nh_free(text);
         }
@@ -154,61 +155,62 @@ static const char *region_of(nh_stage_solver *x, const nh_explicit_motion *m)
     return all;
 }
 
-void nh_quadratures_complete(nh_stage_solver *x)
+void nh_quadratures_complete(nh_stage_solver *solver)
 {
-    nh_analysis *r = x->r;
-    const nh_model *o = r->model;
-    size_t states = 1 + o->m + o->n;
-    if (o->chart->implicit) return;
+    nh_analysis *result = solver->r;
+    const nh_model *model = result->model;
+    size_t states = 1 + model->m + model->n;
+    if (model->chart->implicit) return;
     nh_ex *current;
-    size_t n = gather(x, true, &current);
+    size_t n = gather(solver, true, &current);
     nh_explicit_forms forms = {0};
-    nh_explicit_request request = {.points = x->ranges,
+    nh_explicit_request request = {.points = solver->ranges,
                                    .currents = n,
                                    .current = current,
                                    .linear = true,
-                                   .options = &r->options,
+                                   .options = &result->options,
                                    .forms = &forms};
-    bool open = !nh_counted_covers(&x->counted, 1, false);
+    bool open = !nh_counted_covers(&solver->counted, 1, false);
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
-        const nh_explicit_motion *m = nh_explicit_motion_along(r->arena, o, &request, i);
+        const nh_explicit_motion *m = nh_explicit_motion_along(result->arena, model, &request, i);
         if (!m || (m->known < states && !open)) continue;
-        harvest(x, 1, &m);
+        harvest(solver, 1, &m);
         if (m->known == states) break;
     }
     nh_explicit_forms_clear(&forms);
 }
 
-void nh_quadratures_search(nh_stage_solver *x)
+void nh_quadratures_search(nh_stage_solver *solver)
 {
-    nh_analysis *r = x->r;
-    const nh_model *o = r->model;
-    size_t states = 1 + o->m + o->n, count = 0;
-    if (o->chart->implicit || nh_budget_spent()) return;
+    nh_analysis *result = solver->r;
+    const nh_model *model = result->model;
+    size_t states = 1 + model->m + model->n, count = 0;
+    if (model->chart->implicit || nh_budget_spent()) return;
     nh_progress("integration of one equation after another", nh_budget_part());
     nh_ex *current, *special;
     nh_explicit_forms forms = {0};
-    nh_explicit_request request = {.points = x->ranges, .options = &r->options, .forms = &forms}, valued = request;
-    request.currents = gather(x, true, &current);
+    nh_explicit_request request = {.points = solver->ranges, .options = &result->options, .forms = &forms},
+                        valued = request;
+    request.currents = gather(solver, true, &current);
     request.current = current;
-    valued.currents = gather(x, false, &special);
+    valued.currents = gather(solver, false, &special);
     valued.current = special;
-    valued.fixed = special_values(r);
-    const nh_explicit_motion **tried = nh_arena_alloc(r->arena, 2 * states * sizeof *tried),
-                             *best = try_all(x, request, NULL, &count, tried);
+    valued.fixed = special_values(result);
+    const nh_explicit_motion **tried = nh_arena_alloc(result->arena, 2 * states * sizeof *tried),
+                             *best = try_all(solver, request, NULL, &count, tried);
     if (valued.fixed && !(best && best->known == states && !best->integrals))
-        best = try_all(x, valued, best, &count, tried);
-    harvest(x, count, tried);
+        best = try_all(solver, valued, best, &count, tried);
+    harvest(solver, count, tried);
     /* the formulas of motions in combined coordinates are not shown: their constants are currents */
     request.combined = valued.combined = true;
     count = 0;
-    if (!nh_stage_solver_done(x)) try_all(x, request, NULL, &count, tried);
-    if (!nh_stage_solver_done(x) && valued.fixed) try_all(x, valued, NULL, &count, tried);
-    harvest(x, count, tried);
+    if (!nh_stage_solver_done(solver)) try_all(solver, request, NULL, &count, tried);
+    if (!nh_stage_solver_done(solver) && valued.fixed) try_all(solver, valued, NULL, &count, tried);
+    harvest(solver, count, tried);
     nh_explicit_forms_clear(&forms);
     if (!best || best->known <= 1) return;
-    nh_explicit_motion *m = nh_arena_alloc(r->arena, sizeof *m);
+    nh_explicit_motion *m = nh_arena_alloc(result->arena, sizeof *m);
     *m = *best;
-    m->region = region_of(x, m);
-    r->motion = m;
+    m->region = region_of(solver, m);
+    result->motion = m;
 }

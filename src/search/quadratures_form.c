@@ -60,26 +60,26 @@ static bool split(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
 
 /* sqrt(m^2 u) as m sqrt(u), sqrt(x^4 u) as x^2 sqrt(u): if that changes a sign, the root has the other sign everywhere
  * in e; the result is proved anew. */
-static nh_ex shorter_roots(const nh_model *o, nh_ex e)
+static nh_ex shorter_roots(const nh_model *model, nh_ex e)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     NH_LIST(radicand);
     nh_ex outside, inside;
     size_t n = nh_radicands_in(d, e, &radicand);
     for (size_t i = 0; i < n; i++) {
         bool positive = split(d, radicand[i], &outside, &inside) &&
-                        (nh_model_is_constant(o, outside) || nh_model_sign(o, outside) > 0);
+                        (nh_model_is_constant(model, outside) || nh_model_sign(model, outside) > 0);
         if (positive) e = nh_substitute_root(d, e, radicand[i], nh_mul(d, outside, nh_sqrt(d, inside)));
     }
     return e;
 }
 
 /* log(c u) as log u, with a positive constant c of parameters: in a current it adds a constant only. */
-static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
+static nh_ex shorter_logarithms(const nh_analysis *result, nh_ex e)
 {
     enum { most = 24 };
-    const nh_model *o = r->model;
-    nh_dag *d = o->dag;
+    const nh_model *model = result->model;
+    nh_dag *d = model->dag;
     NH_LIST(call);
     nh_ex by[most];
     size_t n = nh_functions_in(d, e, &call), logs = 0;
@@ -88,9 +88,9 @@ static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
         if (nh_function_of(d, call[i]) != NH_LOG || nh_kind_of(d, u) != NH_PRODUCT) continue;
         c = nh_number(d, nh_constant_of(d, u));
         for (size_t f = 0; f < nh_arity(d, u); f++)
-            if (nh_model_is_constant(o, nh_child(d, u, f)) && nh_model_is_constant(o, nh_exponent_of(d, u, f)))
+            if (nh_model_is_constant(model, nh_child(d, u, f)) && nh_model_is_constant(model, nh_exponent_of(d, u, f)))
                 c = nh_mul(d, c, nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f)));
-        nh_ex valued = nh_model_values(o, c);
+        nh_ex valued = nh_model_values(model, c);
         if (nh_kind_of(d, valued) != NH_NUMBER || nh_num_value(nh_number_of(d, valued)) <= 0) continue;
         by[logs] = nh_call(d, NH_LOG, nh_div(d, u, c));
         call[logs++] = call[i];
@@ -98,21 +98,21 @@ static nh_ex shorter_logarithms(const nh_analysis *r, nh_ex e)
     return nh_substitute(d, e, logs, call, by);
 }
 
-static bool has_roots_of_states(const nh_model *o, nh_ex e)
+static bool has_roots_of_states(const nh_model *model, nh_ex e)
 {
     enum { most = 24 };
     NH_LIST(radicand);
-    size_t n = nh_radicands_in(o->dag, e, &radicand);
+    size_t n = nh_radicands_in(model->dag, e, &radicand);
     bool found = false;
-    for (size_t i = 0; i < n && !found; i++) found = !nh_model_is_constant(o, radicand[i]);
+    for (size_t i = 0; i < n && !found; i++) found = !nh_model_is_constant(model, radicand[i]);
     return found;
 }
 
 /* atanh(a/sqrt(a^2 + b^2)) as asinh(a/b), where that is not much longer: it keeps its digits where b is small. */
-static nh_ex better_area_functions(const nh_model *o, nh_ex e)
+static nh_ex better_area_functions(const nh_model *model, nh_ex e)
 {
     enum { most = 24, a_few = 4 };
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     NH_LIST(call);
     nh_ex outside, inside, one = nh_int(d, 1);
     size_t n = nh_functions_in(d, e, &call);
@@ -122,7 +122,7 @@ static nh_ex better_area_functions(const nh_model *o, nh_ex e)
         nh_ex other = nh_simplify_short(d, nh_div(d, square, nh_sub(d, one, square)), 0);
         if (!nh_square_split(d, other, &outside, &inside)) continue;
         nh_ex u = nh_simplify_short(d, nh_mul(d, outside, nh_sqrt(d, inside)), 0);
-        int sign = has_roots_of_states(o, u) ? 0 : nh_model_sign(o, nh_div(d, f, u));
+        int sign = has_roots_of_states(model, u) ? 0 : nh_model_sign(model, nh_div(d, f, u));
         if (!sign || nh_complexity(d, u) > nh_complexity(d, f) + a_few) continue;
         nh_ex area = nh_mul(d, nh_int(d, sign), nh_call(d, NH_ASINH, u));
         e = nh_substitute(d, e, 1, &call[i], &area);
@@ -132,25 +132,25 @@ static nh_ex better_area_functions(const nh_model *o, nh_ex e)
 
 /* sqrt(s^2 R) as s sqrt(R), where sqrt(R) occurs in the equations of motion and the parameters make s positive: the
  * rate then vanishes for both signs of s. */
-static nh_ex roots_of_the_equations(const nh_model *o, nh_ex e)
+static nh_ex roots_of_the_equations(const nh_model *model, nh_ex e)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     NH_LIST(own);
     NH_LIST(more);
     NH_LIST(theirs);
     nh_ex half = nh_ratio(d, 1, 2), s, rest;
     size_t roots = nh_radicands_in(d, e, &own), known = 0, capacity = 0;
-    for (size_t k = 0; k < o->n && roots; k++) {
-        size_t m = nh_radicands_in(d, o->a[k], &more);
+    for (size_t k = 0; k < model->n && roots; k++) {
+        size_t m = nh_radicands_in(d, model->a[k], &more);
         nh_grow(&theirs, &capacity, known + m, sizeof *theirs);
         for (size_t j = 0; j < m; j++) theirs[known++] = more[j];
     }
     for (size_t i = 0; i < roots; i++)
         for (size_t j = 0; j < known; j++) {
             nh_ex ratio = nh_simplify_short(d, nh_div(d, own[i], theirs[j]), 0);
-            bool parametric = own[i] != theirs[j] && nh_model_is_constant(o, ratio);
+            bool parametric = own[i] != theirs[j] && nh_model_is_constant(model, ratio);
             if (!parametric || !nh_square_split(d, ratio, &s, &rest)) continue;
-            nh_ex value = nh_model_values(o, s);
+            nh_ex value = nh_model_values(model, s);
             if (rest != nh_int(d, 1) || nh_kind_of(d, value) != NH_NUMBER) continue;
             if (nh_num_value(nh_number_of(d, value)) < 0) s = nh_neg(d, s);
             e = nh_substitute_root(d, e, own[i], nh_mul(d, s, nh_pow(d, theirs[j], half)));
@@ -176,15 +176,15 @@ static nh_ex signs_as_roots(nh_dag *d, nh_ex e)
 }
 
 /* Is u = a + b sqrt(R), with one root, but for those of constants? */
-static bool is_surd(const nh_model *o, nh_ex u, nh_ex *a, nh_ex *b, nh_ex *R)
+static bool is_surd(const nh_model *model, nh_ex u, nh_ex *a, nh_ex *b, nh_ex *R)
 {
     enum { most = 8 };
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     NH_LIST(radicand);
     nh_ex s = nh_symbol_fresh(d, "s"), zero = nh_int(d, 0);
     size_t n = nh_radicands_in(d, u, &radicand), roots = 0;
     for (size_t i = 0; i < n; i++)
-        if (!nh_model_is_constant(o, radicand[i])) radicand[roots++] = radicand[i];
+        if (!nh_model_is_constant(model, radicand[i])) radicand[roots++] = radicand[i];
     if (n > most || roots != 1) return false;
     nh_ex e = nh_simplify_short(d, nh_substitute_root(d, u, radicand[0], s), 0);
     *R = radicand[0];
@@ -194,90 +194,90 @@ static bool is_surd(const nh_model *o, nh_ex u, nh_ex *a, nh_ex *b, nh_ex *R)
 }
 
 /* The root of e, where it is positive; `exact`: and has no root but of constants. */
-static bool root_of(const nh_model *o, nh_ex e, bool exact, nh_ex *out)
+static bool root_of(const nh_model *model, nh_ex e, bool exact, nh_ex *out)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex outside, inside;
-    if (!split(d, e, &outside, &inside) || (exact && !nh_model_is_constant(o, inside))) return false;
-    if (exact && nh_model_sign(o, outside) < 0) outside = nh_neg(d, outside);
+    if (!split(d, e, &outside, &inside) || (exact && !nh_model_is_constant(model, inside))) return false;
+    if (exact && nh_model_sign(model, outside) < 0) outside = nh_neg(d, outside);
     *out = nh_mul(d, outside, nh_sqrt(d, inside));
-    return !exact || nh_model_sign(o, outside) > 0;
+    return !exact || nh_model_sign(model, outside) > 0;
 }
 
 /* w = arcosh(C) as *times arsinh(*sinh): sinh(w/2) is the root of (C - 1)/2, and cosh(w/2) that of (C + 1)/2. */
-static bool area_of_cosine(const nh_model *o, nh_ex C, int *times, nh_ex *sinh)
+static bool area_of_cosine(const nh_model *model, nh_ex C, int *times, nh_ex *sinh)
 {
     enum { most_halves = 4 };
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex half = nh_ratio(d, 1, 2), one = nh_int(d, 1);
     bool found = false;
     for (int k = 1; k <= most_halves; k++) {
         nh_ex below = nh_simplify_short(d, nh_mul(d, half, nh_sub(d, C, one)), 0), root;
-        if (!root_of(o, below, false, &root) || (found && nh_complexity(d, root) >= nh_complexity(d, *sinh))) break;
+        if (!root_of(model, below, false, &root) || (found && nh_complexity(d, root) >= nh_complexity(d, *sinh))) break;
         *sinh = root;
         *times = 1 << k;
         found = true;
-        if (!root_of(o, nh_simplify_short(d, nh_mul(d, half, nh_add(d, C, one)), 0), true, &C)) break;
+        if (!root_of(model, nh_simplify_short(d, nh_mul(d, half, nh_add(d, C, one)), 0), true, &C)) break;
     }
     return found;
 }
 
 /* log(a + b sqrt(R)) without log N, where a^2 - b^2 R = N^2 or -N^2: with a = N cosh w or N sinh w it is w.  N may be a
  * current. */
-static bool area_of(const nh_model *o, nh_ex u, nh_ex *out)
+static bool area_of(const nh_model *model, nh_ex u, nh_ex *out)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex a, b, R, N;
     u = joined_roots(d, u);
-    if (!is_surd(o, u, &a, &b, &R)) return false;
+    if (!is_surd(model, u, &a, &b, &R)) return false;
     nh_ex norm = nh_simplify_short(d, nh_sub(d, nh_powi(d, a, 2), nh_product(d, 3, (nh_ex[]){b, b, R})), 0);
-    int times = 1, sign = nh_is_zero(d, norm) ? 0 : nh_model_sign(o, norm);
-    if (!sign || !root_of(o, sign > 0 ? norm : nh_simplify_short(d, nh_neg(d, norm), 0), true, &N)) return false;
+    int times = 1, sign = nh_is_zero(d, norm) ? 0 : nh_model_sign(model, norm);
+    if (!sign || !root_of(model, sign > 0 ? norm : nh_simplify_short(d, nh_neg(d, norm), 0), true, &N)) return false;
     nh_ex w = nh_simplify_short(d, nh_div(d, a, N), 0);
-    if (sign > 0 && !area_of_cosine(o, w, &times, &w)) return false;
-    int side = nh_model_sign(o, sign > 0 ? nh_div(d, w, b) : b);
+    if (sign > 0 && !area_of_cosine(model, w, &times, &w)) return false;
+    int side = nh_model_sign(model, sign > 0 ? nh_div(d, w, b) : b);
     if (!side || nh_complexity(d, w) >= nh_complexity(d, u)) return false;
     *out = nh_mul(d, nh_int(d, times * side), nh_call(d, NH_ASINH, w));
     return true;
 }
 
 /* log(y + sqrt(1 + y^2)) as arsinh(y): shorter, and no logarithm of a current is added. */
-static nh_ex areas_of_logarithms(const nh_model *o, nh_ex e)
+static nh_ex areas_of_logarithms(const nh_model *model, nh_ex e)
 {
     enum { most = 24 };
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     NH_LIST(call);
     nh_ex by[most];
     size_t n = nh_functions_in(d, e, &call), areas = 0;
     for (size_t i = 0; i < n && n <= most; i++) {
-        if (nh_function_of(d, call[i]) != NH_LOG || !area_of(o, nh_child(d, call[i], 0), &by[areas])) continue;
+        if (nh_function_of(d, call[i]) != NH_LOG || !area_of(model, nh_child(d, call[i], 0), &by[areas])) continue;
         call[areas++] = call[i];
     }
     return areas ? nh_simplify_short(d, nh_substitute(d, e, areas, call, by), 0) : e;
 }
 
 /* Most are not, which doubles show: a rate that is nowhere as small as rounding. */
-bool nh_quadratures_conserves(const nh_model *o, nh_ex e)
+bool nh_quadratures_conserves(const nh_model *model, nh_ex e)
 {
     enum { rounding = 1000000000 }; /* one part in so many */
-    nh_dag *d = o->dag;
-    if (nh_model_is_constant(o, e)) return true;
-    nh_ex rate = nh_model_gamma(o, e), least = nh_mul(d, nh_ratio(d, 1, rounding), e);
-    if (nh_model_sign(o, nh_sub(d, nh_powi(d, rate, 2), nh_powi(d, least, 2))) > 0) return false;
+    nh_dag *d = model->dag;
+    if (nh_model_is_constant(model, e)) return true;
+    nh_ex rate = nh_model_gamma(model, e), least = nh_mul(d, nh_ratio(d, 1, rounding), e);
+    if (nh_model_sign(model, nh_sub(d, nh_powi(d, rate, 2), nh_powi(d, least, 2))) > 0) return false;
     return nh_is_zero(d, nh_simplify_short(d, rate, 0));
 }
 
 /* A product without its conserved factors, but for the longest. */
-static nh_ex without_factors(const nh_model *o, nh_ex e)
+static nh_ex without_factors(const nh_model *model, nh_ex e)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     size_t n = nh_kind_of(d, e) == NH_PRODUCT ? nh_arity(d, e) : 0, longest = 0;
     for (size_t f = 1; f < n; f++)
         if (nh_complexity(d, nh_child(d, e, f)) > nh_complexity(d, nh_child(d, e, longest))) longest = f;
     nh_ex rest = n ? nh_int(d, 1) : e;
     for (size_t f = 0; f < n; f++) {
         nh_ex factor = nh_pow(d, nh_child(d, e, f), nh_exponent_of(d, e, f));
-        if (f == longest || !nh_quadratures_conserves(o, factor)) rest = nh_mul(d, rest, factor);
+        if (f == longest || !nh_quadratures_conserves(model, factor)) rest = nh_mul(d, rest, factor);
     }
     return rest;
 }
@@ -316,52 +316,54 @@ static size_t multipliers_of(nh_dag *d, nh_ex term, size_t most, nh_ex *out)
 
 /* A current times a current that divides it, where that is not much longer, or divided by one where that is shorter:
  * x y' - u, and not x - u/y'.  What is polynomial in the velocities is counted (count/completeness.h). */
-static nh_ex without_a_divisor(const nh_model *o, nh_ex e)
+static nh_ex without_a_divisor(const nh_model *model, nh_ex e)
 {
     enum { a_few = 4, most = 32, longest = 500 };
-    nh_dag *d = o->dag;
-    nh_ex core = without_factors(o, e);
+    nh_dag *d = model->dag;
+    nh_ex core = without_factors(model, e);
     bool sum = nh_kind_of(d, core) == NH_SUM;
     size_t length = nh_complexity(d, core);
     for (size_t i = 0; i < (sum ? nh_arity(d, core) : 1) && length <= longest; i++) {
         nh_ex multiplier[most];
         size_t n = multipliers_of(d, sum ? nh_child(d, core, i) : core, most, multiplier);
         for (size_t k = 0; k < n; k++) {
-            if (nh_model_is_constant(o, multiplier[k]) || !nh_quadratures_conserves(o, multiplier[k])) continue;
-            nh_ex whole = without_factors(o, times(d, core, multiplier[k]));
+            if (nh_model_is_constant(model, multiplier[k]) || !nh_quadratures_conserves(model, multiplier[k])) continue;
+            nh_ex whole = without_factors(model, times(d, core, multiplier[k]));
             bool divided = nh_complexity(d, nh_powi(d, multiplier[k], -1)) < nh_complexity(d, multiplier[k]);
             bool short_enough = nh_complexity(d, whole) < (divided ? length : length + a_few);
-            if (short_enough && !nh_model_is_constant(o, whole)) return whole;
+            if (short_enough && !nh_model_is_constant(model, whole)) return whole;
         }
     }
     return core;
 }
 
 /* A form of a constant without signs, its roots joined.  The time of a swing has signs. */
-static nh_ex in_other_roots(const nh_analysis *r, nh_ex e, bool general)
+static nh_ex in_other_roots(const nh_analysis *result, nh_ex e, bool general)
 {
-    const nh_model *o = r->model;
-    if (nh_named_function_has_elliptic(o->dag, e) && nh_prove_current(o, e, true, &r->options).all_parameters) return e;
-    nh_ex joined = shorter_roots(o, joined_roots(o->dag, signs_as_roots(o->dag, e)));
-    nh_ex rooted = nh_simplify_short(o->dag, roots_of_the_equations(o, joined), 0);
-    bool shorter = nh_complexity(o->dag, rooted) < nh_complexity(o->dag, e);
+    const nh_model *model = result->model;
+    if (nh_named_function_has_elliptic(model->dag, e) &&
+        nh_prove_current(model, e, true, &result->options).all_parameters)
+        return e;
+    nh_ex joined = shorter_roots(model, joined_roots(model->dag, signs_as_roots(model->dag, e)));
+    nh_ex rooted = nh_simplify_short(model->dag, roots_of_the_equations(model, joined), 0);
+    bool shorter = nh_complexity(model->dag, rooted) < nh_complexity(model->dag, e);
     if (e == rooted || !general) return e;
-    if (!shorter && nh_prove_current(o, e, true, &r->options).all_parameters) return e;
-    return nh_prove_current(o, rooted, true, &r->options).all_parameters ? rooted : e;
+    if (!shorter && nh_prove_current(model, e, true, &result->options).all_parameters) return e;
+    return nh_prove_current(model, rooted, true, &result->options).all_parameters ? rooted : e;
 }
 
-nh_ex nh_quadratures_form(const nh_analysis *r, nh_ex value, bool general)
+nh_ex nh_quadratures_form(const nh_analysis *result, nh_ex value, bool general)
 {
     enum { most_divisors = 3 };
-    const nh_model *o = r->model;
-    nh_dag *d = o->dag;
-    nh_ex e = shorter_roots(o, nh_simplify_short(d, shorter_logarithms(r, shorter_roots(o, value)), 0));
-    nh_ex stable = areas_of_logarithms(o, better_area_functions(o, e));
-    if (stable != e && nh_prove_current(o, stable, true, &r->options).all_parameters) e = stable;
-    e = in_other_roots(r, e, general);
+    const nh_model *model = result->model;
+    nh_dag *d = model->dag;
+    nh_ex e = shorter_roots(model, nh_simplify_short(d, shorter_logarithms(result, shorter_roots(model, value)), 0));
+    nh_ex stable = areas_of_logarithms(model, better_area_functions(model, e));
+    if (stable != e && nh_prove_current(model, stable, true, &result->options).all_parameters) e = stable;
+    e = in_other_roots(result, e, general);
     nh_ex whole = e;
-    for (int k = 0; k < most_divisors; k++) whole = without_a_divisor(o, whole);
+    for (int k = 0; k < most_divisors; k++) whole = without_a_divisor(model, whole);
     if (whole == e) return e;
-    nh_proof proof = nh_prove_current(o, whole, general, &r->options);
+    nh_proof proof = nh_prove_current(model, whole, general, &result->options);
     return (general ? proof.all_parameters : proof.proved) ? whole : e;
 }

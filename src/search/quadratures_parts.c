@@ -18,17 +18,17 @@ static size_t root_of(const size_t *parent, size_t x)
 }
 
 /* A coordinate, or else a velocity. */
-static nh_ex state(const nh_model *o, size_t i)
+static nh_ex state(const nh_model *model, size_t i)
 {
-    return i < o->m ? o->system->coordinate[i].q : o->chart->w[i - o->m];
+    return i < model->m ? model->system->coordinate[i].q : model->chart->w[i - model->m];
 }
 
 /* The first state on which e depends, and all others joined to it; the number of states: there is none. */
-static size_t join(const nh_model *o, size_t *parent, nh_ex e)
+static size_t join(const nh_model *model, size_t *parent, nh_ex e)
 {
-    size_t states = o->m + o->n, first = states;
+    size_t states = model->m + model->n, first = states;
     for (size_t i = 0; i < states; i++) {
-        if (!nh_depends(o->dag, e, state(o, i))) continue;
+        if (!nh_depends(model->dag, e, state(model, i))) continue;
         if (first == states) first = i;
         else parent[root_of(parent, i)] = root_of(parent, first);
     }
@@ -37,25 +37,25 @@ static size_t join(const nh_model *o, size_t *parent, nh_ex e)
 
 /* The terms of the energy, by coordinates and velocities that occur together; 0: there are no two parts, or one is not
  * constant by itself. */
-static size_t parts_of_energy(const nh_model *o, nh_ex part[most_states])
+static size_t parts_of_energy(const nh_model *model, nh_ex part[most_states])
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_ex *term; /* the first one is the sum itself */
-    size_t states = o->m + o->n, terms = nh_terms_of(d, nh_canonical_sum(d, o->E), &term), parent[most_states],
-           *first = nh_alloc_array(terms + 1, sizeof *first), count = 0;
+    size_t states = model->m + model->n, terms = nh_terms_of(d, nh_canonical_sum(d, model->E), &term),
+           parent[most_states], *first = nh_alloc_array(terms + 1, sizeof *first), count = 0;
     bool apart = states <= most_states;
     for (size_t i = 0; i < states && apart; i++) parent[i] = i;
-    for (size_t s = 0; s < o->m && apart; s++) {
-        size_t velocity = join(o, parent, o->rho[s]);
+    for (size_t s = 0; s < model->m && apart; s++) {
+        size_t velocity = join(model, parent, model->rho[s]);
         if (velocity < states) parent[root_of(parent, velocity)] = root_of(parent, s);
     }
-    for (size_t j = 1; j < terms && apart; j++) first[j] = join(o, parent, term[j]);
+    for (size_t j = 1; j < terms && apart; j++) first[j] = join(model, parent, term[j]);
     for (size_t i = 0; i < states && apart; i++) {
         nh_ex e = nh_int(d, 0);
         for (size_t j = 1; j < terms; j++)
             if (first[j] < states && root_of(parent, first[j]) == i) e = nh_add(d, e, term[j]);
         if (nh_is_zero(d, e)) continue;
-        apart = nh_quadratures_conserves(o, e);
+        apart = nh_quadratures_conserves(model, e);
         part[count++] = e;
     }
     nh_free(first);
@@ -63,22 +63,23 @@ static size_t parts_of_energy(const nh_model *o, nh_ex part[most_states])
     return apart && count > 1 ? count : 0;
 }
 
-size_t nh_quadratures_with_parts(const nh_analysis *r, const nh_points *points, size_t n, nh_ex *current)
+size_t nh_quadratures_with_parts(const nh_analysis *result, const nh_points *points, size_t n, nh_ex *current)
 {
-    const nh_model *o = r->model;
+    const nh_model *model = result->model;
     nh_ex part[most_states], energy = 0;
     size_t at = 0, parts, kept = 0;
-    for (size_t k = 0; k < r->count; k++)
-        if (r->found[k].energy) energy = r->found[k].phi;
+    for (size_t k = 0; k < result->count; k++)
+        if (result->found[k].energy) energy = result->found[k].phi;
     while (at < n && current[at] != energy) at++;
-    if (at == n || !(parts = parts_of_energy(o, part))) return n;
+    if (at == n || !(parts = parts_of_energy(model, part))) return n;
     nh_ex *list = nh_alloc_array(n + parts, sizeof *list);
     nh_independence *kind = nh_alloc_array(n + parts, sizeof *kind);
     for (size_t j = 0; j < n; j++)
         if (j != at) list[kept++] = current[j];
     for (size_t j = 0; j < parts; j++) {
         list[kept] = part[j];
-        nh_independence_test(o, points, kept + 1, list, NULL, r->options.sure, r->options.doubt, kind, NULL);
+        nh_independence_test(model, points, kept + 1, list, NULL, result->options.sure, result->options.doubt, kind,
+                             NULL);
         kept += kind[kept] == NH_INDEPENDENT;
     }
     bool changed = kept >= n;

@@ -55,7 +55,7 @@ static double lowest(const nh_pencil *p, double y)
 }
 
 /* |Im| or Re of the pencil's eigenvalues, each once. */
-static size_t rates(const nh_model *o, const rate_context *c, double *re, double *im, size_t most)
+static size_t rates(const nh_model *model, const rate_context *c, double *re, double *im, size_t most)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
@@ -64,7 +64,7 @@ static size_t rates(const nh_model *o, const rate_context *c, double *re, double
     double largest = 0, *A = nh_alloc_array(points->count * n + 1, sizeof *A),
            *B = nh_alloc_array(points->count * n + 1, sizeof *B);
     nh_nullspace_options limits = nh_nullspace_options_from(&c->x->r->options);
-    nh_rows_pencil(o, c->base, nh_model_gamma(o, c->q), points, A, B);
+    nh_rows_pencil(model, c->base, nh_model_gamma(model, c->q), points, A, B);
     nh_pencil *p = nh_pencil_solve(points->count, n, A, B, &limits, c->x->r->options.split, &ignored);
     for (size_t k = 0; p && k < p->dimension; k++) largest = fmax(largest, hypot(p->re[k], p->im[k]));
     for (size_t k = 0; p && k < p->dimension && count < most; k++) {
@@ -253,13 +253,13 @@ static void choose_forms(waves *w)
 }
 
 /* Is the function g of t a wave of frequency nu, g'' = -nu^2 g? */
-static bool is_wave(const nh_stage_solver *x, nh_ex g, double nu)
+static bool is_wave(const nh_stage_solver *solver, nh_ex g, double nu)
 {
-    const nh_model *o = x->r->model;
-    const nh_points *p = x->ranges;
-    nh_ex t = o->system->t, pair[2] = {g, nh_diff(o->dag, nh_diff(o->dag, g, t), t)};
+    const nh_model *model = solver->r->model;
+    const nh_points *p = solver->ranges;
+    nh_ex t = model->system->t, pair[2] = {g, nh_diff(model->dag, nh_diff(model->dag, g, t), t)};
     double *value = nh_alloc_array(2 * p->count + 1, sizeof *value), rest = 0, size = 0;
-    nh_points_evaluate(p, o, 2, pair, value);
+    nh_points_evaluate(p, model, 2, pair, value);
     for (size_t i = 0; i < p->count; i++) {
         rest = fmax(rest, fabs(value[p->count + i] + nu * nu * value[i]));
         size = fmax(size, fabs(value[p->count + i]));
@@ -270,14 +270,15 @@ static bool is_wave(const nh_stage_solver *x, nh_ex g, double nu)
 
 /* The frequencies of driving forces are waves of the base itself: they give no currents, and are nearly dependent on
  * the others. */
-static size_t without_driven(const nh_stage_solver *x, nh_ex q, size_t n, double *re, double *im)
+static size_t without_driven(const nh_stage_solver *solver, nh_ex q, size_t n, double *re, double *im)
 {
-    const nh_model *o = x->r->model;
+    const nh_model *model = solver->r->model;
     size_t kept = 0;
     for (size_t k = 0; k < n; k++) {
         bool driven = false;
-        for (size_t i = 0; i < x->words.atoms && q == o->system->t && fabs(re[k]) < 1e-9 * fabs(im[k]) && !driven; i++)
-            driven = nh_depends(o->dag, x->words.atom[i], q) && is_wave(x, x->words.atom[i], im[k]);
+        for (size_t i = 0;
+             i < solver->words.atoms && q == model->system->t && fabs(re[k]) < 1e-9 * fabs(im[k]) && !driven; i++)
+            driven = nh_depends(model->dag, solver->words.atom[i], q) && is_wave(solver, solver->words.atom[i], im[k]);
         re[kept] = re[k];
         im[kept] = im[k];
         kept += !driven;
@@ -288,8 +289,8 @@ static size_t without_driven(const nh_stage_solver *x, nh_ex q, size_t n, double
 /* Many waves on a short interval are nearly dependent: each is tried alone as well. */
 static void one_by_one(waves *w, const char *text)
 {
-    nh_stage_solver *x = w->context.x;
-    for (size_t k = 0; k < w->count && !nh_stage_solver_done(x); k++) {
+    nh_stage_solver *solver = w->context.x;
+    for (size_t k = 0; k < w->count && !nh_stage_solver_done(solver); k++) {
         waves one = *w;
         nh_family family[2];
         one.count = 1;
@@ -297,126 +298,127 @@ static void one_by_one(waves *w, const char *text)
         one.im[0] = w->im[k];
         one.how[0] = w->how[k];
         wave_families(&one, family); /* the eigenvectors need the first of them only */
-        if (nh_stage_solver_promising(x, 1, family)) nh_stage_solver_stage(x, text, 1, family);
+        if (nh_stage_solver_promising(solver, 1, family)) nh_stage_solver_stage(solver, text, 1, family);
     }
 }
 
 /* Returns whether new currents were found; `linear`: the family is everything of degree one. */
-static bool pencil_of(nh_stage_solver *x, nh_ex q, const char *name, const nh_family *base, bool linear)
+static bool pencil_of(nh_stage_solver *solver, nh_ex q, const char *name, const nh_family *base, bool linear)
 {
-    nh_analysis *r = x->r;
+    nh_analysis *r = solver->r;
     nh_error ignored;
     nh_error_clear(&ignored);
     size_t before = r->independent;
     nh_family family[2];
-    if (nh_counted_superfluous(&x->counted, 1, base, nh_depends(r->model->dag, q, r->model->system->t))) return false;
-    nh_ansatz *a = nh_ansatz_create(r->model, x->ranges, 1, base, x->ranges->count / 2 - 2, &ignored);
+    if (nh_counted_superfluous(&solver->counted, 1, base, nh_depends(r->model->dag, q, r->model->system->t)))
+        return false;
+    nh_ansatz *a = nh_ansatz_create(r->model, solver->ranges, 1, base, solver->ranges->count / 2 - 2, &ignored);
     if (!a) return false;
-    waves w = {.context = {.x = x, .base = a, .q = q}, .base = base, .linear = linear};
-    for (size_t i = 0; i < x->words.waves; i++) w.context.periodic |= x->words.wave[i] == q;
-    w.count = without_driven(x, q, rates(r->model, &w.context, w.re, w.im, most_values), w.re, w.im);
+    waves w = {.context = {.x = solver, .base = a, .q = q}, .base = base, .linear = linear};
+    for (size_t i = 0; i < solver->words.waves; i++) w.context.periodic |= solver->words.wave[i] == q;
+    w.count = without_driven(solver, q, rates(r->model, &w.context, w.re, w.im, most_values), w.re, w.im);
     if (w.count > most_rates) w.count = most_rates;
     choose_forms(&w);
     if (w.count) {
         char text[120];
         snprintf(text, sizeof text, "exponentials and waves in %.60s with rates found by the pencil", name);
-        nh_stage_solver_stage(x, text, wave_families(&w, family), family);
+        nh_stage_solver_stage(solver, text, wave_families(&w, family), family);
         if (w.count > 1) one_by_one(&w, text);
     }
     nh_ansatz_free(a);
     return r->independent > before;
 }
 
-static bool pencil_stage(nh_stage_solver *x, nh_ex q, const char *name, nh_pencil_base base)
+static bool pencil_stage(nh_stage_solver *solver, nh_ex q, const char *name, nh_pencil_base base)
 {
-    nh_analysis *r = x->r;
+    nh_analysis *r = solver->r;
     /* elsewhere 1 and q are a pair that rounding splits */
     bool timely = q == r->model->system->t && base == NH_PENCIL_LINEAR;
-    nh_family family = nh_stage_pencil_base(r->arena, r->model, &x->words, timely ? NH_PENCIL_TIME : base);
-    return pencil_of(x, q, name, &family, base == NH_PENCIL_LINEAR);
+    nh_family family = nh_stage_pencil_base(r->arena, r->model, &solver->words, timely ? NH_PENCIL_TIME : base);
+    return pencil_of(solver, q, name, &family, base == NH_PENCIL_LINEAR);
 }
 
 /* Are the equations of motion independent of the coordinate?  (Of time this is not asked: the stage finds out soon.) */
-static bool is_cyclic(const nh_stage_solver *x, nh_ex q)
+static bool is_cyclic(const nh_stage_solver *solver, nh_ex q)
 {
-    for (size_t i = 0; i < x->words.shapes; i++)
-        if (x->words.shape[i] == q) return false;
+    for (size_t i = 0; i < solver->words.shapes; i++)
+        if (solver->words.shape[i] == q) return false;
     return true;
 }
 
 /* For a variable the smallest base that gives new currents is enough: larger ones make them more complicated. */
-static bool linear_rates(nh_stage_solver *x, nh_ex q, const char *name)
+static bool linear_rates(nh_stage_solver *solver, nh_ex q, const char *name)
 {
     bool found = false;
     for (nh_pencil_base base = NH_PENCIL_VELOCITIES; base <= NH_PENCIL_LINEAR && !found; base++)
-        found = !nh_stage_solver_done(x) && pencil_stage(x, q, name, base);
+        found = !nh_stage_solver_done(solver) && pencil_stage(solver, q, name, base);
     return found;
 }
 
 /* exp(-nu Q) f where volumes grow like exp(Q): the velocities of a body on wheels fall and grow with combinations of
    the wheels' angles. */
-static void volume_rate(nh_stage_solver *x)
+static void volume_rate(nh_stage_solver *solver)
 {
-    const nh_model *o = x->r->model;
-    if ((o->k == 0 && !o->system->has_forces) || nh_stage_solver_done(x)) return;
-    nh_ex Q = nh_volume_rate_potential(o, &x->words, (size_t)x->r->options.proof_terms);
-    if (Q && nh_kind_of(o->dag, Q) != NH_SYMBOL) linear_rates(x, Q, "the logarithm of the invariant density");
+    const nh_model *model = solver->r->model;
+    if ((model->k == 0 && !model->system->has_forces) || nh_stage_solver_done(solver)) return;
+    nh_ex Q = nh_volume_rate_potential(model, &solver->words, (size_t)solver->r->options.proof_terms);
+    if (Q && nh_kind_of(model->dag, Q) != NH_SYMBOL) linear_rates(solver, Q, "the logarithm of the invariant density");
 }
 
-static void rates_of(nh_stage_solver *x, nh_ex q, const char *name, size_t bases, const nh_pencil_base *base)
+static void rates_of(nh_stage_solver *solver, nh_ex q, const char *name, size_t bases, const nh_pencil_base *base)
 {
-    for (size_t i = 0; i < bases && !nh_stage_solver_done(x); i++) pencil_stage(x, q, name, base[i]);
+    for (size_t i = 0; i < bases && !nh_stage_solver_done(solver); i++) pencil_stage(solver, q, name, base[i]);
 }
 
 /* exp(-nu V) f with V the potential: for a thermostat that keeps the speed (f falls as the forces do work): velocities
  * and their products with positions, and where coordinates are curved the momenta. */
-static void potential_rate(nh_stage_solver *x)
+static void potential_rate(nh_stage_solver *solver)
 {
-    const nh_model *o = x->r->model;
-    nh_ex *zero = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *zero),
-          *v = nh_arena_alloc(x->r->arena, (o->m + 1) * sizeof *v);
-    if (o->k == 0 || nh_stage_solver_done(x)) return;
-    for (size_t s = 0; s < o->m; s++) {
-        v[s] = o->system->coordinate[s].v;
-        zero[s] = nh_int(o->dag, 0);
+    const nh_model *model = solver->r->model;
+    nh_ex *zero = nh_arena_alloc(solver->r->arena, (model->m + 1) * sizeof *zero),
+          *v = nh_arena_alloc(solver->r->arena, (model->m + 1) * sizeof *v);
+    if (model->k == 0 || nh_stage_solver_done(solver)) return;
+    for (size_t s = 0; s < model->m; s++) {
+        v[s] = model->system->coordinate[s].v;
+        zero[s] = nh_int(model->dag, 0);
     }
-    nh_ex V = nh_substitute(o->dag, o->system->lagrangian, o->m, v, zero);
-    if (nh_kind_of(o->dag, V) != NH_NUMBER && !nh_depends(o->dag, V, o->system->t))
-        rates_of(x, V, "the potential", 2, (nh_pencil_base[]){NH_PENCIL_PRODUCTS, NH_PENCIL_LINEAR});
+    nh_ex V = nh_substitute(model->dag, model->system->lagrangian, model->m, v, zero);
+    if (nh_kind_of(model->dag, V) != NH_NUMBER && !nh_depends(model->dag, V, model->system->t))
+        rates_of(solver, V, "the potential", 2, (nh_pencil_base[]){NH_PENCIL_PRODUCTS, NH_PENCIL_LINEAR});
 }
 
-static void rates_in_time(nh_stage_solver *x)
+static void rates_in_time(nh_stage_solver *solver)
 {
     static const nh_pencil_base larger[] = {NH_PENCIL_QUADRATIC, NH_PENCIL_CUBIC, NH_PENCIL_FRAME, NH_PENCIL_PRODUCTS};
-    const nh_model *o = x->r->model;
-    nh_ex t = o->system->t;
-    bool found = linear_rates(x, t, "t"), changes = nh_depends(o->dag, o->Lbar, t);
-    if (changes) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_ENERGY});
-    if (!found && changes) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_GROWING});
-    if (o->system->has_forces) rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_SQUARES});
-    rates_of(x, t, "t", sizeof larger / sizeof *larger, larger);
-    rates_of(x, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_RATIONAL});
+    const nh_model *model = solver->r->model;
+    nh_ex t = model->system->t;
+    bool found = linear_rates(solver, t, "t"), changes = nh_depends(model->dag, model->Lbar, t);
+    if (changes) rates_of(solver, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_ENERGY});
+    if (!found && changes) rates_of(solver, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_GROWING});
+    if (model->system->has_forces) rates_of(solver, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_SQUARES});
+    rates_of(solver, t, "t", sizeof larger / sizeof *larger, larger);
+    rates_of(solver, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_RATIONAL});
 }
 
-static void rates_along(nh_stage_solver *x, const nh_coordinate *c)
+static void rates_along(nh_stage_solver *solver, const nh_coordinate *c)
 {
     static const nh_pencil_base larger[] = {NH_PENCIL_FRAME, NH_PENCIL_PRODUCTS};
-    const nh_model *o = x->r->model;
-    const char *name = nh_name_of(o->dag, c->q);
-    bool found = linear_rates(x, c->q, name);
-    if (o->system->has_forces) rates_of(x, c->q, name, 1, (nh_pencil_base[]){NH_PENCIL_SQUARES});
-    if (c->type == NH_ANGLE && x->words.waves > 1 && !found && !nh_stage_solver_done(x)) {
-        nh_family around = nh_stage_pencil_around(x->r->arena, o, &x->words, c->q);
-        pencil_of(x, c->q, name, &around, false);
+    const nh_model *model = solver->r->model;
+    const char *name = nh_name_of(model->dag, c->q);
+    bool found = linear_rates(solver, c->q, name);
+    if (model->system->has_forces) rates_of(solver, c->q, name, 1, (nh_pencil_base[]){NH_PENCIL_SQUARES});
+    if (c->type == NH_ANGLE && solver->words.waves > 1 && !found && !nh_stage_solver_done(solver)) {
+        nh_family around = nh_stage_pencil_around(solver->r->arena, model, &solver->words, c->q);
+        pencil_of(solver, c->q, name, &around, false);
     }
-    if (is_cyclic(x, c->q)) rates_of(x, c->q, name, sizeof larger / sizeof *larger, larger);
+    if (is_cyclic(solver, c->q)) rates_of(solver, c->q, name, sizeof larger / sizeof *larger, larger);
 }
 
-void nh_rates_search(nh_stage_solver *x)
+void nh_rates_search(nh_stage_solver *solver)
 {
-    const nh_model *o = x->r->model;
-    rates_in_time(x);
-    for (size_t i = 0; i < o->m; i++) rates_along(x, &o->system->coordinate[i]);
-    volume_rate(x);
-    potential_rate(x);
+    const nh_model *model = solver->r->model;
+    rates_in_time(solver);
+    for (size_t i = 0; i < model->m; i++) rates_along(solver, &model->system->coordinate[i]);
+    volume_rate(solver);
+    potential_rate(solver);
 }

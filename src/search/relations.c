@@ -30,8 +30,8 @@ static nh_ex product(nh_dag *d, size_t n, const nh_ex *factor, const uint8_t *ex
 /* The leading product in terms of the others.  False: the coefficients are not found. */
 static bool exact(const ring *x, const nh_count_relation *q, nh_further_relation *out)
 {
-    nh_analysis *r = x->r;
-    nh_dag *d = r->model->dag;
+    nh_analysis *result = x->r;
+    nh_dag *d = result->model->dag;
     nh_ex *value = nh_alloc_array(q->terms + 1, sizeof *value), *name = nh_alloc_array(q->terms + 1, sizeof *name),
           *c = nh_alloc_array(q->terms + 1, sizeof *c);
     for (size_t i = 0; i < q->terms; i++) {
@@ -39,15 +39,15 @@ static bool exact(const ring *x, const nh_count_relation *q, nh_further_relation
         name[i] = product(d, x->count, x->symbol, q->exponent + i * x->count);
     }
     size_t last = q->terms - 1;
-    bool found = nh_relation_find(d, q->terms, value, r->system->parameters, r->model->parameter,
-                                  (size_t)r->options.proof_terms, c) == NH_RELATION_UNIQUE;
+    bool found = nh_relation_find(d, q->terms, value, result->system->parameters, result->model->parameter,
+                                  (size_t)result->options.proof_terms, c) == NH_RELATION_UNIQUE;
     found = found && !nh_is_zero(d, c[last]);
     if (found) {
         nh_ex right = nh_int(d, 0);
         for (size_t i = 0; i < last; i++)
             right = nh_sub(d, right, nh_mul(d, nh_simplify(d, nh_div(d, c[i], c[last])), name[i]));
         char *lhs = nh_print_string(d, name[last]), *rhs = nh_print_string(d, right);
-        *out = (nh_further_relation){nh_arena_strdup(r->arena, lhs), nh_arena_strdup(r->arena, rhs)};
+        *out = (nh_further_relation){nh_arena_strdup(result->arena, lhs), nh_arena_strdup(result->arena, rhs)};
         nh_free(rhs);
         nh_free(lhs);
     }
@@ -57,29 +57,30 @@ static bool exact(const ring *x, const nh_count_relation *q, nh_further_relation
     return found;
 }
 
-static size_t highest(const nh_analysis *r)
+static size_t highest(const nh_analysis *result)
 {
     size_t degree = 0;
-    for (size_t k = 0; k < r->furthers; k++)
-        if (r->further[k].degree > degree) degree = r->further[k].degree;
+    for (size_t k = 0; k < result->furthers; k++)
+        if (result->further[k].degree > degree) degree = result->further[k].degree;
     return degree;
 }
 
-void nh_relations_find(nh_analysis *r)
+void nh_relations_find(nh_analysis *result)
 {
     enum { longest = 60 };
-    size_t room = r->count + r->furthers + 1;
-    ring x = {.r = r, .phi = nh_alloc_array(room, sizeof(nh_ex)), .symbol = nh_alloc_array(room, sizeof(nh_ex))};
+    size_t room = result->count + result->furthers + 1;
+    ring x = {.r = result, .phi = nh_alloc_array(room, sizeof(nh_ex)), .symbol = nh_alloc_array(room, sizeof(nh_ex))};
     nh_count_relation found[NH_MOST_RELATIONS];
-    for (size_t k = 0; k < r->count; k++) put(&x, &r->found[k]);
-    for (size_t k = 0; k < r->furthers; k++) put(&x, &r->further[k].current);
+    for (size_t k = 0; k < result->count; k++) put(&x, &result->found[k]);
+    for (size_t k = 0; k < result->furthers; k++) put(&x, &result->further[k].current);
     size_t n = 0;
-    for (size_t degree = 2 * highest(r); degree > 0 && n == 0; degree--) /* lower where there are too many products */
-        n = nh_count_relations(r->model, x.count, x.phi, degree, r->arena, NH_MOST_RELATIONS, found);
-    r->relation = nh_arena_alloc(r->arena, (n + 1) * sizeof *r->relation);
+    for (size_t degree = 2 * highest(result); degree > 0 && n == 0;
+         degree--) /* lower where there are too many products */
+        n = nh_count_relations(result->model, x.count, x.phi, degree, result->arena, NH_MOST_RELATIONS, found);
+    result->relation = nh_arena_alloc(result->arena, (n + 1) * sizeof *result->relation);
     for (size_t i = 0; i < n && !nh_late(); i++)
         if (found[i].terms > 1 && found[i].terms <= longest)
-            r->relations += exact(&x, &found[i], &r->relation[r->relations]);
+            result->relations += exact(&x, &found[i], &result->relation[result->relations]);
     nh_free(x.symbol);
     nh_free(x.phi);
 }

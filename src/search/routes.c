@@ -10,62 +10,64 @@
  * omitted, and the result says so. */
 enum { most_columns = 400 };
 
-static nh_nullspace *solve(nh_analysis *r, size_t n, const nh_field_column *column, const nh_points *points,
+static nh_nullspace *solve(nh_analysis *result, size_t n, const nh_field_column *column, const nh_points *points,
                            nh_error *error)
 {
-    nh_equations *equations = nh_equations_create(n, nh_threads(r->options.threads));
-    nh_rows_symmetry(r->model, n, column, points, equations);
-    nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
+    nh_equations *equations = nh_equations_create(n, nh_threads(result->options.threads));
+    nh_rows_symmetry(result->model, n, column, points, equations);
+    nh_nullspace_options limits = nh_nullspace_options_from(&result->options);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, error);
     nh_equations_free(equations);
     return s;
 }
 
-static void compare(nh_analysis *r, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current,
+static void compare(nh_analysis *result, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current,
                     const nh_nullspace *symmetry, const nh_field_column *column)
 {
     nh_ex *phi = nh_alloc_array(a->columns + 1, sizeof *phi),
           *field = nh_alloc_array(symmetry->columns + 1, sizeof *field);
     for (size_t j = 0; j < a->columns; j++) phi[j] = nh_ansatz_column(a, j);
-    for (size_t j = 0; j < symmetry->columns; j++) field[j] = nh_rows_field_current(r->model, &column[j]);
-    double *x = nh_span_values(r->model, points, a->columns, phi, current->dimension, current->vector);
-    double *y = nh_span_values(r->model, points, symmetry->columns, field, symmetry->dimension, symmetry->vector);
+    for (size_t j = 0; j < symmetry->columns; j++) field[j] = nh_rows_field_current(result->model, &column[j]);
+    double *x = nh_span_values(result->model, points, a->columns, phi, current->dimension, current->vector);
+    double *y = nh_span_values(result->model, points, symmetry->columns, field, symmetry->dimension, symmetry->vector);
     double forward = nh_span_distance(points->count, current->dimension, x, symmetry->dimension, y);
     double back = nh_span_distance(points->count, symmetry->dimension, y, current->dimension, x);
-    r->routes_compared = true;
-    r->routes_angle = fmax(forward, back);
-    r->routes_agree = current->dimension == symmetry->dimension && r->routes_angle <= r->options.agreement;
+    result->routes_compared = true;
+    result->routes_angle = fmax(forward, back);
+    result->routes_agree =
+        current->dimension == symmetry->dimension && result->routes_angle <= result->options.agreement;
     nh_free(y);
     nh_free(x);
     nh_free(field);
     nh_free(phi);
 }
 
-void nh_routes_compare(nh_analysis *r, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current)
+void nh_routes_compare(nh_analysis *result, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
     nh_ex *b = nh_alloc_array(a->columns + 1, sizeof *b);
     for (size_t j = 0; j < a->columns; j++) b[j] = nh_ansatz_column(a, j);
     nh_field_column *column;
-    size_t n =
-        a->columns * (r->model->n + 1) <= most_columns ? nh_rows_field_columns(r->model, a->columns, b, &column) : 0;
+    size_t n = a->columns * (result->model->n + 1) <= most_columns
+                   ? nh_rows_field_columns(result->model, a->columns, b, &column)
+                   : 0;
     nh_free(b);
     if (a->columns == 0) return; /* no value of the unknowns: nothing to compare */
     if (n == 0) {
         nh_analysis_warn(
-            r, "the symmetry route was skipped: the ansatz is too large; the symmetries follow from the currents");
+            result, "the symmetry route was skipped: the ansatz is too large; the symmetries follow from the currents");
         return;
     }
-    nh_nullspace *s = solve(r, n, column, points, &trouble);
+    nh_nullspace *s = solve(result, n, column, points, &trouble);
     if (!s) {
-        nh_analysis_warn(r, "the symmetry route failed: %s", trouble.what);
+        nh_analysis_warn(result, "the symmetry route failed: %s", trouble.what);
         return;
     }
-    r->symmetry = nh_spectrum_of(r->arena, s);
-    compare(r, a, points, current, s, column);
+    result->symmetry = nh_spectrum_of(result->arena, s);
+    compare(result, a, points, current, s, column);
     nh_nullspace_free(s);
-    if (!r->routes_agree)
-        nh_analysis_warn(r, "the two routes disagree: dimensions %zu and %zu, angle %.1e", r->current.dimension,
-                         r->symmetry.dimension, r->routes_angle);
+    if (!result->routes_agree)
+        nh_analysis_warn(result, "the two routes disagree: dimensions %zu and %zu, angle %.1e",
+                         result->current.dimension, result->symmetry.dimension, result->routes_angle);
 }

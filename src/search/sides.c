@@ -22,12 +22,14 @@ typedef struct {
     bool good;            /* there was room for all */
 } sides;
 
-static bool depends_on_state(const nh_model *o, nh_ex u)
+static bool depends_on_state(const nh_model *model, nh_ex u)
 {
-    bool found = nh_depends(o->dag, u, o->system->t);
-    for (size_t s = 0; s < o->system->coordinates && !found; s++)
-        found = nh_depends(o->dag, u, o->system->coordinate[s].q) || nh_depends(o->dag, u, o->system->coordinate[s].v);
-    for (size_t i = 0; i < o->system->quasi && !found; i++) found = nh_depends(o->dag, u, o->system->quasi_velocity[i]);
+    bool found = nh_depends(model->dag, u, model->system->t);
+    for (size_t s = 0; s < model->system->coordinates && !found; s++)
+        found = nh_depends(model->dag, u, model->system->coordinate[s].q) ||
+                nh_depends(model->dag, u, model->system->coordinate[s].v);
+    for (size_t i = 0; i < model->system->quasi && !found; i++)
+        found = nh_depends(model->dag, u, model->system->quasi_velocity[i]);
     return found;
 }
 
@@ -118,24 +120,24 @@ static void take_all(nh_stage_solver *solver, const sides *x, const nh_analysis 
 
 void nh_sides_search(nh_stage_solver *solver, nh_whole_search *search)
 {
-    nh_analysis *r = solver->r;
-    sides x = {.o = r->model, .d = r->model->dag, .good = true};
+    nh_analysis *result = solver->r;
+    sides x = {.o = result->model, .d = result->model->dag, .good = true};
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_system *system = without_kinks(&x, r->arena, r->system);
+    nh_system *system = without_kinks(&x, result->arena, result->system);
     if (!x.count || !x.good || nh_late()) return;
     nh_progress("the equations on one side of a kink", -1);
-    nh_chart_choice choice = r->model->chart->quasi ? NH_CHART_AUTO : NH_CHART_COORDINATES;
-    nh_analysis *side = nh_other_system_open(r, system, choice);
+    nh_chart_choice choice = result->model->chart->quasi ? NH_CHART_AUTO : NH_CHART_COORDINATES;
+    nh_analysis *side = nh_other_system_open(result, system, choice);
     if (!side) return;
-    bool same = side->model->n == r->model->n;
-    for (size_t i = 0; i < r->model->n && same; i++) same = side->model->chart->w[i] == r->model->chart->w[i];
+    bool same = side->model->n == result->model->n;
+    for (size_t i = 0; i < result->model->n && same; i++) same = side->model->chart->w[i] == result->model->chart->w[i];
     if (same && search(side, &ignored)) {
         if (!nh_late()) nh_missing_count(side, true);
-        nh_budget_begin(r->options.work);
+        nh_budget_begin(result->options.work);
         take_all(solver, &x, side);
         nh_budget_begin(INFINITY);
-        r->used |= side->used;
+        result->used |= side->used;
     }
     nh_other_system_close(side);
 }

@@ -121,12 +121,13 @@ static bool current_of(const plane *y, nh_ex F, nh_ex G, nh_ex *phi)
 }
 
 /* Do the accelerations depend on the two velocities only? */
-static bool is_closed(const nh_model *o, size_t i, size_t k)
+static bool is_closed(const nh_model *model, size_t i, size_t k)
 {
-    const nh_ex *symbol = o->chart->symbol;
-    for (size_t j = 0; j < o->width; j++) {
-        if (symbol[j] == o->chart->w[i] || symbol[j] == o->chart->w[k]) continue;
-        if (nh_depends(o->dag, o->a[i], symbol[j]) || nh_depends(o->dag, o->a[k], symbol[j])) return false;
+    const nh_ex *symbol = model->chart->symbol;
+    for (size_t j = 0; j < model->width; j++) {
+        if (symbol[j] == model->chart->w[i] || symbol[j] == model->chart->w[k]) continue;
+        if (nh_depends(model->dag, model->a[i], symbol[j]) || nh_depends(model->dag, model->a[k], symbol[j]))
+            return false;
     }
     return true;
 }
@@ -134,22 +135,23 @@ static bool is_closed(const nh_model *o, size_t i, size_t k)
 void nh_slopes_search(nh_stage_solver *solver)
 {
     enum { longest = 400 };
-    nh_model *o = solver->r->model;
-    nh_dag *d = o->dag;
-    if (o->chart->implicit) return;
-    for (size_t i = 0; i < o->n; i++)
-        for (size_t k = 0; k < o->n && !nh_stage_solver_done(solver) && !nh_budget_spent(); k++) {
-            if (i == k || !is_closed(o, i, k)) continue;
-            if (!nh_complexity_within(d, o->a[i], longest) || !nh_complexity_within(d, o->a[k], longest)) continue;
+    nh_model *model = solver->r->model;
+    nh_dag *d = model->dag;
+    if (model->chart->implicit) return;
+    for (size_t i = 0; i < model->n; i++)
+        for (size_t k = 0; k < model->n && !nh_stage_solver_done(solver) && !nh_budget_spent(); k++) {
+            if (i == k || !is_closed(model, i, k)) continue;
+            if (!nh_complexity_within(d, model->a[i], longest) || !nh_complexity_within(d, model->a[k], longest))
+                continue;
             plane y = {.x = solver,
-                       .o = o,
+                       .o = model,
                        .d = d,
-                       .u = o->chart->w[i],
-                       .v = o->chart->w[k],
+                       .u = model->chart->w[i],
+                       .v = model->chart->w[k],
                        .p = nh_symbol_fresh(d, "slope"),
                        .side = nh_symbol_fresh(d, "side")};
             nh_ex phi;
-            if (current_of(&y, with_slope(&y, o->a[i]), with_slope(&y, o->a[k]), &phi) &&
+            if (current_of(&y, with_slope(&y, model->a[i]), with_slope(&y, model->a[k]), &phi) &&
                 nh_stage_solver_certify(solver, nh_simplify_short(d, in_states(&y, phi), 0),
                                         "two velocities by their quotient"))
                 break;

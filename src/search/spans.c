@@ -5,12 +5,12 @@
 
 #include "base/linalg.h"
 
-double *nh_span_values(const nh_model *o, const nh_points *points, size_t terms, const nh_ex *e, size_t n,
+double *nh_span_values(const nh_model *model, const nh_points *points, size_t terms, const nh_ex *e, size_t n,
                        const double *vector)
 {
     size_t count = points->count;
     double *value = nh_alloc_array(terms * count + 1, sizeof *value), *out = nh_alloc_array(count * n + 1, sizeof *out);
-    nh_points_evaluate(points, o, terms, e, value);
+    nh_points_evaluate(points, model, terms, e, value);
     nh_multiply(count, n, terms, value, vector, out);
     nh_free(value);
     for (size_t k = 0; k < n; k++) {

@@ -41,73 +41,79 @@ static nh_ex recognise(const nh_analysis *r, const nh_points *points, size_t fam
                          (uint64_t)r->options.seed);
 }
 
-static void name_values(nh_analysis *r, const nh_points *points, size_t families, const nh_family *family)
+static void name_values(nh_analysis *result, const nh_points *points, size_t families, const nh_family *family)
 {
-    const nh_hits *h = r->hits;
-    r->special = nh_arena_alloc(r->arena, (h->count + 1) * sizeof *r->special);
-    r->specials = h->count;
+    const nh_hits *h = result->hits;
+    result->special = nh_arena_alloc(result->arena, (h->count + 1) * sizeof *result->special);
+    result->specials = h->count;
     for (size_t k = 0; k < h->count; k++) {
-        nh_ex *named = nh_arena_alloc(r->arena, (h->unknowns + 1) * sizeof *named);
+        nh_ex *named = nh_arena_alloc(result->arena, (h->unknowns + 1) * sizeof *named);
         for (size_t j = 0; j < h->unknowns; j++) {
-            if (h->unknowns == 1) named[j] = recognise(r, points, families, family, &r->analysis->unknown[0], h, k);
-            else if (!nh_recognise_number(r->model->dag, h->hit[k].value[j], r->options.recognise, &named[j]))
+            if (h->unknowns == 1)
+                named[j] = recognise(result, points, families, family, &result->analysis->unknown[0], h, k);
+            else if (!nh_recognise_number(result->model->dag, h->hit[k].value[j], result->options.recognise, &named[j]))
                 named[j] = 0;
         }
-        r->special[k] = (nh_special){h->hit[k].value, named, &h->hit[k]};
+        result->special[k] = (nh_special){h->hit[k].value, named, &h->hit[k]};
     }
 }
 
 /* Families without unknowns stay; the others are repeated with each value. */
-static void expand(nh_analysis *r, size_t *families, nh_family **family)
+static void expand(nh_analysis *result, size_t *families, nh_family **family)
 {
-    const nh_analysis_file *a = r->analysis;
-    nh_dag *d = r->model->dag;
-    nh_family *out = nh_arena_alloc(r->arena, (*families * (1 + r->specials) + 1) * sizeof *out);
-    nh_ex *from = nh_arena_alloc(r->arena, (a->unknowns + 1) * sizeof *from),
-          *to = nh_arena_alloc(r->arena, (a->unknowns + 1) * sizeof *to);
+    const nh_analysis_file *a = result->analysis;
+    nh_dag *d = result->model->dag;
+    nh_family *out = nh_arena_alloc(result->arena, (*families * (1 + result->specials) + 1) * sizeof *out);
+    nh_ex *from = nh_arena_alloc(result->arena, (a->unknowns + 1) * sizeof *from),
+          *to = nh_arena_alloc(result->arena, (a->unknowns + 1) * sizeof *to);
     size_t n = 0;
     for (size_t j = 0; j < a->unknowns; j++) from[j] = a->unknown[j].symbol;
     for (size_t i = 0; i < *families; i++) {
         bool contains = false;
-        for (size_t j = 0; j < a->unknowns; j++) contains |= nh_family_contains(r->model, &(*family)[i], from[j]);
+        for (size_t j = 0; j < a->unknowns; j++) contains |= nh_family_contains(result->model, &(*family)[i], from[j]);
         if (!contains) out[n++] = (*family)[i];
-        for (size_t k = 0; k < r->specials && contains; k++) {
+        for (size_t k = 0; k < result->specials && contains; k++) {
             for (size_t j = 0; j < a->unknowns; j++)
-                to[j] = r->special[k].recognised[j] ? r->special[k].recognised[j] : nh_real(d, r->special[k].value[j]);
-            out[n++] = nh_family_substitute(r->arena, d, &(*family)[i], a->unknowns, from, to);
+                to[j] = result->special[k].recognised[j] ? result->special[k].recognised[j]
+                                                         : nh_real(d, result->special[k].value[j]);
+            out[n++] = nh_family_substitute(result->arena, d, &(*family)[i], a->unknowns, from, to);
         }
     }
     *families = n;
     *family = out;
 }
 
-bool nh_specials_find(nh_analysis *r, size_t *families, nh_family **family, nh_error *error)
+bool nh_specials_find(nh_analysis *result, size_t *families, nh_family **family, nh_error *error)
 {
-    if (!r->analysis || r->analysis->unknowns == 0) return true;
-    const nh_analysis_file *a = r->analysis;
-    nh_points *points = nh_points_create(r->model, search_points, 1, (uint64_t)r->options.seed + 404, error);
+    if (!result->analysis || result->analysis->unknowns == 0) return true;
+    const nh_analysis_file *a = result->analysis;
+    nh_points *points = nh_points_create(result->model, search_points, 1, (uint64_t)result->options.seed + 404, error);
     if (!points) return false;
-    r->hits = nh_unknowns_find(r->model, points, *families, *family, a->unknowns, a->unknown, &r->options, error);
-    if (r->hits) {
-        name_values(r, points, *families, *family);
-        expand(r, families, family);
-        for (size_t k = 0; k < r->specials; k++)
-            if (r->hits->pencil_applied && !(r->special[k].hit->by_pencil && r->special[k].hit->by_search))
-                nh_analysis_warn(r, "the value %.12g of an unknown was found by the %s only", r->special[k].value[0],
-                                 r->special[k].hit->by_pencil ? "eigenvalue pencil" : "global search");
+    result->hits =
+        nh_unknowns_find(result->model, points, *families, *family, a->unknowns, a->unknown, &result->options, error);
+    if (result->hits) {
+        name_values(result, points, *families, *family);
+        expand(result, families, family);
+        for (size_t k = 0; k < result->specials; k++)
+            if (result->hits->pencil_applied &&
+                !(result->special[k].hit->by_pencil && result->special[k].hit->by_search))
+                nh_analysis_warn(result, "the value %.12g of an unknown was found by the %s only",
+                                 result->special[k].value[0],
+                                 result->special[k].hit->by_pencil ? "eigenvalue pencil" : "global search");
     }
     nh_points_free(points);
-    return r->hits != NULL;
+    return result->hits != NULL;
 }
 
-void nh_specials_name(nh_analysis *r, const nh_letters *letters)
+void nh_specials_name(nh_analysis *result, const nh_letters *letters)
 {
     static const double same = 1e-7; /* a search knows fewer digits of a value than the current that it leads to */
-    for (size_t k = 0; k < r->specials; k++)
-        for (size_t j = 0; j < r->hits->unknowns; j++)
+    for (size_t k = 0; k < result->specials; k++)
+        for (size_t j = 0; j < result->hits->unknowns; j++)
             for (size_t i = 0; i < letters->count; i++) {
-                double value = r->special[k].value[j], size = fabs(value);
+                double value = result->special[k].value[j], size = fabs(value);
                 if (!(fabs(size - letters->value[i]) <= same * size)) continue;
-                r->special[k].recognised[j] = value < 0 ? nh_neg(r->model->dag, letters->name[i]) : letters->name[i];
+                result->special[k].recognised[j] =
+                    value < 0 ? nh_neg(result->model->dag, letters->name[i]) : letters->name[i];
             }
 }

@@ -21,59 +21,62 @@
 #include "search/stages.h"
 
 /* The part of a momentum with velocities, where there is another, which may come from a total derivative in L. */
-static void without_positions(nh_stage_solver *x, nh_ex momentum)
+static void without_positions(nh_stage_solver *solver, nh_ex momentum)
 {
-    const nh_model *o = x->r->model;
-    nh_ex *zero = nh_alloc_array(o->n + 1, sizeof *zero);
-    for (size_t i = 0; i < o->n; i++) zero[i] = nh_int(o->dag, 0);
-    nh_ex rest = nh_substitute(o->dag, momentum, o->n, o->chart->w, zero);
+    const nh_model *model = solver->r->model;
+    nh_ex *zero = nh_alloc_array(model->n + 1, sizeof *zero);
+    for (size_t i = 0; i < model->n; i++) zero[i] = nh_int(model->dag, 0);
+    nh_ex rest = nh_substitute(model->dag, momentum, model->n, model->chart->w, zero);
     nh_free(zero);
-    if (nh_is_zero(o->dag, rest) || nh_kind_of(o->dag, rest) == NH_NUMBER) return;
-    nh_stage_solver_certify(x, nh_simplify_short(o->dag, nh_sub(o->dag, momentum, rest), 0),
+    if (nh_is_zero(model->dag, rest) || nh_kind_of(model->dag, rest) == NH_NUMBER) return;
+    nh_stage_solver_certify(solver, nh_simplify_short(model->dag, nh_sub(model->dag, momentum, rest), 0),
                             "the part of a momentum with velocities");
 }
 
 /* The energy and each momentum alone, so that no nearly dependent function replaces them. */
-static void energy_and_momenta(nh_stage_solver *x)
+static void energy_and_momenta(nh_stage_solver *solver)
 {
-    nh_analysis *r = x->r;
-    for (size_t i = 0; i <= x->words.momenta && !nh_stage_solver_done(x); i++) {
-        nh_ex *e = nh_arena_alloc(r->arena, sizeof *e);
-        nh_family *all = nh_arena_alloc(r->arena, sizeof *all);
-        *e = i == 0 ? r->model->E : x->words.momentum[i - 1];
+    nh_analysis *result = solver->r;
+    for (size_t i = 0; i <= solver->words.momenta && !nh_stage_solver_done(solver); i++) {
+        nh_ex *e = nh_arena_alloc(result->arena, sizeof *e);
+        nh_family *all = nh_arena_alloc(result->arena, sizeof *all);
+        *e = i == 0 ? result->model->E : solver->words.momentum[i - 1];
         *all = (nh_family){.kind = NH_TERMS, .terms = 1, .term = e};
-        if (nh_stage_solver_promising(x, 1, all)) nh_stage_solver_stage(x, i == 0 ? "energy" : "a momentum", 1, all);
-        else nh_stage_solver_certify(x, *e, i == 0 ? "energy, in ball arithmetic" : "a momentum, in ball arithmetic");
-        if (i > 0 && !nh_stage_solver_done(x)) without_positions(x, *e);
+        if (nh_stage_solver_promising(solver, 1, all))
+            nh_stage_solver_stage(solver, i == 0 ? "energy" : "a momentum", 1, all);
+        else
+            nh_stage_solver_certify(solver, *e,
+                                    i == 0 ? "energy, in ball arithmetic" : "a momentum, in ball arithmetic");
+        if (i > 0 && !nh_stage_solver_done(solver)) without_positions(solver, *e);
     }
 }
 
 /* What the energy and the work of the forces leave constant, where the forces have a potential. */
-static void force_potential(nh_stage_solver *x)
+static void force_potential(nh_stage_solver *solver)
 {
-    const nh_model *o = x->r->model;
-    nh_ex U = nh_force_potential(o, x->ranges, (size_t)x->r->options.proof_terms);
-    if (U) nh_stage_solver_certify(x, nh_sub(o->dag, o->E, U), "energy and potential of the forces");
+    const nh_model *model = solver->r->model;
+    nh_ex U = nh_force_potential(model, solver->ranges, (size_t)solver->r->options.proof_terms);
+    if (U) nh_stage_solver_certify(solver, nh_sub(model->dag, model->E, U), "energy and potential of the forces");
 }
 
 /* Whether a limit ended the search.  Work ends it at the same place everywhere, time does not; a stage that was too
  * large is skipped and ends nothing. */
-static void how_it_ended(nh_analysis *r, bool spent)
+static void how_it_ended(nh_analysis *result, bool spent)
 {
-    for (size_t i = 0; i < r->stages; i++)
-        spent |= r->stage[i].limit.option && !strcmp(r->stage[i].limit.option, "work");
-    if (r->independent >= r->local_maximum) r->search = NH_SEARCH_COMPLETE;
-    else r->search = spent || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
-    if (r->search != NH_SEARCH_CUT || !spent) return;
-    r->partial = true;
-    nh_analysis_warn(r, "the limit of %g million units of work ended the search; raise it by --option work=%g",
-                     r->options.work, 10 * r->options.work);
+    for (size_t i = 0; i < result->stages; i++)
+        spent |= result->stage[i].limit.option && !strcmp(result->stage[i].limit.option, "work");
+    if (result->independent >= result->local_maximum) result->search = NH_SEARCH_COMPLETE;
+    else result->search = spent || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
+    if (result->search != NH_SEARCH_CUT || !spent) return;
+    result->partial = true;
+    nh_analysis_warn(result, "the limit of %g million units of work ended the search; raise it by --option work=%g",
+                     result->options.work, 10 * result->options.work);
 }
 
 /* For these only the equations on one side of kinks are left. */
-static void sides(nh_stage_solver *x) { nh_sides_search(x, nh_staged_search_run); }
+static void sides(nh_stage_solver *solver) { nh_sides_search(solver, nh_staged_search_run); }
 
-static void primitives(nh_stage_solver *x) { nh_missing_primitives(x); }
+static void primitives(nh_stage_solver *solver) { nh_missing_primitives(solver); }
 
 /* Each part of the search has the whole of the option `work`; the last one, which is short, as much as it needs. */
 typedef enum { FITTED, INTEGRATED, CONSTRUCTED, REST, ELSEWHERE, PARTS } part;
@@ -129,9 +132,11 @@ const char *nh_staged_search_row(size_t i) { return i < ROWS ? rows[i].name : NU
 
 /* Is there nothing for this part to do?  Of a complete list the motion may not be known, nor the functions without
    which not all integrals are polynomials of the list. */
-static bool part_is_done(const nh_stage_solver *x, part p)
+static bool part_is_done(const nh_stage_solver *solver, part p)
 {
-    return p == INTEGRATED ? nh_budget_spent() || nh_late() : p == CONSTRUCTED ? nh_late() : nh_stage_solver_done(x);
+    return p == INTEGRATED    ? nh_budget_spent() || nh_late()
+           : p == CONSTRUCTED ? nh_late()
+                              : nh_stage_solver_done(solver);
 }
 
 /* What a row may change: a row that changes nothing can be left out. */
@@ -139,41 +144,44 @@ typedef struct {
     size_t count, pieces, independent, furthers;
 } outcome;
 
-static outcome outcome_of(const nh_analysis *r) { return (outcome){r->count, r->pieces, r->independent, r->furthers}; }
-
-static void run_row(nh_stage_solver *x, size_t i)
+static outcome outcome_of(const nh_analysis *result)
 {
-    nh_stage stage;
-    nh_analysis *r = x->r;
-    const row *own = &rows[i];
-    if (part_is_done(x, own->part) || r->left_out >> i & 1) return;
-    outcome before = outcome_of(r);
-    x->counted.on = own->part != CONSTRUCTED && i >= counted;
-    if (own->run) own->run(x);
-    else if (nh_stage_at(r->arena, r->model, &x->words, own->stage, &stage))
-        nh_stage_solver_stage(x, stage.name, stage.families, stage.family);
-    outcome after = outcome_of(r);
-    if (memcmp(&before, &after, sizeof before)) r->used |= UINT64_C(1) << i;
+    return (outcome){result->count, result->pieces, result->independent, result->furthers};
 }
 
-bool nh_staged_search_run(nh_analysis *r, nh_error *error)
+static void run_row(nh_stage_solver *solver, size_t i)
+{
+    nh_stage stage;
+    nh_analysis *result = solver->r;
+    const row *own = &rows[i];
+    if (part_is_done(solver, own->part) || result->left_out >> i & 1) return;
+    outcome before = outcome_of(result);
+    solver->counted.on = own->part != CONSTRUCTED && i >= counted;
+    if (own->run) own->run(solver);
+    else if (nh_stage_at(result->arena, result->model, &solver->words, own->stage, &stage))
+        nh_stage_solver_stage(solver, stage.name, stage.families, stage.family);
+    outcome after = outcome_of(result);
+    if (memcmp(&before, &after, sizeof before)) result->used |= UINT64_C(1) << i;
+}
+
+bool nh_staged_search_run(nh_analysis *result, nh_error *error)
 {
     nh_stage_solver x;
     bool spent = false;
-    if (!nh_stage_solver_begin(&x, r, error)) return false;
-    r->counted = nh_count_memory_create();
-    x.words = nh_dictionary_of(r->model);
+    if (!nh_stage_solver_begin(&x, result, error)) return false;
+    result->counted = nh_count_memory_create();
+    x.words = nh_dictionary_of(result->model);
     for (part p = 0; p < PARTS; p++) {
         /* the motion is integrated with what the fits have left */
-        if (p != INTEGRATED) nh_budget_begin(p == ELSEWHERE ? INFINITY : r->options.work);
+        if (p != INTEGRATED) nh_budget_begin(p == ELSEWHERE ? INFINITY : result->options.work);
         for (size_t i = 0; i < ROWS; i++)
             if (rows[i].part == p) run_row(&x, i);
         spent |= p != CONSTRUCTED && nh_budget_spent();
     }
     nh_budget_begin(INFINITY);
     nh_currents_finish(x.bench);
-    nh_missing_name_further(r);
-    how_it_ended(r, spent);
+    nh_missing_name_further(result);
+    how_it_ended(result, spent);
     nh_stage_solver_end(&x);
     return true;
 }

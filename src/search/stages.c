@@ -224,11 +224,12 @@ static void stage_degree_2(nh_family_list *s)
 /* L has terms of degree one in the velocities: a magnetic field. */
 static bool is_magnetic(const nh_family_list *s)
 {
-    const nh_model *o = s->o;
-    nh_ex *zero = nh_arena_alloc(s->arena, (o->n + 1) * sizeof *zero);
-    for (size_t i = 0; i < o->n; i++) zero[i] = nh_int(o->dag, 0);
-    for (size_t k = 0; k < o->m; k++)
-        if (!nh_is_zero(o->dag, nh_substitute(o->dag, o->p[k], o->n, o->chart->w, zero))) return true;
+    const nh_model *model = s->o;
+    nh_ex *zero = nh_arena_alloc(s->arena, (model->n + 1) * sizeof *zero);
+    for (size_t i = 0; i < model->n; i++) zero[i] = nh_int(model->dag, 0);
+    for (size_t k = 0; k < model->m; k++)
+        if (!nh_is_zero(model->dag, nh_substitute(model->dag, model->p[k], model->n, model->chart->w, zero)))
+            return true;
     return false;
 }
 
@@ -268,10 +269,10 @@ static const recipe stages[] = {
     [NH_STAGE_RATIONAL] = {"quotients by the denominators of the Lagrangian", nh_stage_rational},
 };
 
-bool nh_stage_at(nh_arena *arena, const nh_model *o, const nh_dictionary *w, size_t index, nh_stage *out)
+bool nh_stage_at(nh_arena *arena, const nh_model *model, const nh_dictionary *w, size_t index, nh_stage *out)
 {
     if (index >= sizeof stages / sizeof *stages) return false;
-    nh_family_list s = {arena, o, w, nh_arena_alloc(arena, NH_MOST_FAMILIES * sizeof(nh_family)), 0};
+    nh_family_list s = {arena, model, w, nh_arena_alloc(arena, NH_MOST_FAMILIES * sizeof(nh_family)), 0};
     stages[index].build(&s);
     *out = (nh_stage){stages[index].name, s.count, s.family};
     return true;
@@ -340,14 +341,14 @@ static nh_expr_set pencil_products(const nh_family_list *s)
 static void put_derivatives(const nh_family_list *s, nh_expr_set *l)
 {
     enum { highest = 6 };
-    const nh_model *o = s->o;
+    const nh_model *model = s->o;
     for (size_t i = 0; i < s->w->potentials; i++)
-        for (size_t k = 0; k < o->m; k++) {
+        for (size_t k = 0; k < model->m; k++) {
             nh_ex e = s->w->potential[i];
-            for (size_t j = 0; j < highest && nh_depends(o->dag, e, o->system->coordinate[k].q); j++) {
-                e = nh_diff(o->dag, e, o->system->coordinate[k].q);
-                if (nh_kind_of(o->dag, e) == NH_PRODUCT)
-                    e = nh_div(o->dag, e, nh_number(o->dag, nh_constant_of(o->dag, e)));
+            for (size_t j = 0; j < highest && nh_depends(model->dag, e, model->system->coordinate[k].q); j++) {
+                e = nh_diff(model->dag, e, model->system->coordinate[k].q);
+                if (nh_kind_of(model->dag, e) == NH_PRODUCT)
+                    e = nh_div(model->dag, e, nh_number(model->dag, nh_constant_of(model->dag, e)));
                 nh_expr_set_put(l, e);
             }
         }
@@ -364,10 +365,10 @@ static nh_expr_set pencil_squares(const nh_family_list *s)
     return uu;
 }
 
-nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *o, const nh_dictionary *w, nh_ex angle)
+nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *model, const nh_dictionary *w, nh_ex angle)
 {
-    nh_dag *d = o->dag;
-    nh_family_list s = {arena, o, w, NULL, 0};
+    nh_dag *d = model->dag;
+    nh_family_list s = {arena, model, w, NULL, 0};
     nh_expr_set l = linear_words(&s), wave = {0};
     nh_expr_set_put(&wave, nh_int(d, 1));
     nh_expr_set_put(&wave, nh_call(d, NH_COS, angle));
@@ -376,9 +377,9 @@ nh_family nh_stage_pencil_around(nh_arena *arena, const nh_model *o, const nh_di
     return nh_family_list_terms(&s, &both);
 }
 
-nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dictionary *w, nh_pencil_base base)
+nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *model, const nh_dictionary *w, nh_pencil_base base)
 {
-    nh_family_list s = {arena, o, w, NULL, 0};
+    nh_family_list s = {arena, model, w, NULL, 0};
     nh_expr_set l = {0};
     switch (base) {
     case NH_PENCIL_QUADRATIC: l = pencil_powers(&s, 2); break;
@@ -386,12 +387,12 @@ nh_family nh_stage_pencil_base(nh_arena *arena, const nh_model *o, const nh_dict
     case NH_PENCIL_SQUARES: l = pencil_squares(&s); break;
     case NH_PENCIL_ENERGY:
         l = nh_expr_set_functions(&s, true);
-        nh_expr_set_put(&l, o->E);
+        nh_expr_set_put(&l, model->E);
         break;
     case NH_PENCIL_RATIONAL: l = nh_expr_set_quotients(&s); break;
     case NH_PENCIL_PRODUCTS: l = pencil_products(&s); break;
     case NH_PENCIL_FRAME:
-        if (w->frames == o->n) l = frame_products(&s);
+        if (w->frames == model->n) l = frame_products(&s);
         break;
     default: l = pencil_words(&s, base);
     }

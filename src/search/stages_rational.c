@@ -13,13 +13,13 @@
 enum { most_denominators = 3, most_variables = 7 };
 
 /* Is e affine in the velocities of the chart, and not free of them? */
-static bool is_affine(const nh_model *o, nh_ex e)
+static bool is_affine(const nh_model *model, nh_ex e)
 {
     bool moves = false, affine = true;
-    for (size_t i = 0; i < o->n && affine; i++) {
-        nh_ex slope = nh_diff(o->dag, e, o->chart->w[i]);
-        moves |= !nh_is_zero(o->dag, slope);
-        for (size_t j = 0; j < o->n && affine; j++) affine = !nh_depends(o->dag, slope, o->chart->w[j]);
+    for (size_t i = 0; i < model->n && affine; i++) {
+        nh_ex slope = nh_diff(model->dag, e, model->chart->w[i]);
+        moves |= !nh_is_zero(model->dag, slope);
+        for (size_t j = 0; j < model->n && affine; j++) affine = !nh_depends(model->dag, slope, model->chart->w[j]);
     }
     return moves && affine;
 }

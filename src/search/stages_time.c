@@ -23,26 +23,26 @@ void nh_expr_set_put_time(const nh_family_list *s, nh_expr_set *l)
 
 bool nh_family_list_timely(const nh_family_list *s)
 {
-    const nh_model *o = s->o;
-    nh_ex t = o->system->t;
-    bool timely = nh_depends(o->dag, o->Lbar, t);
-    for (size_t k = 0; k < o->m; k++)
-        timely |=
-            nh_depends(o->dag, o->rho[k], t) || (o->system->has_forces && nh_depends(o->dag, o->system->force[k], t));
+    const nh_model *model = s->o;
+    nh_ex t = model->system->t;
+    bool timely = nh_depends(model->dag, model->Lbar, t);
+    for (size_t k = 0; k < model->m; k++)
+        timely |= nh_depends(model->dag, model->rho[k], t) ||
+                  (model->system->has_forces && nh_depends(model->dag, model->system->force[k], t));
     return timely;
 }
 
 /* The highest power of t in a sum of products; inside of functions and roots it does not count. */
-static long power_of_time(const nh_model *o, nh_ex e, int *left)
+static long power_of_time(const nh_model *model, nh_ex e, int *left)
 {
-    nh_dag *d = o->dag;
+    nh_dag *d = model->dag;
     nh_kind kind = nh_kind_of(d, e);
-    if (e == o->system->t) return 1;
+    if (e == model->system->t) return 1;
     if (kind != NH_SUM && kind != NH_PRODUCT) return 0;
     if (--*left < 0) return most_powers;
     long highest = 0, all = 0;
     for (size_t i = 0; i < nh_arity(d, e); i++) {
-        long power = power_of_time(o, nh_child(d, e, i), left);
+        long power = power_of_time(model, nh_child(d, e, i), left);
         nh_ex x = kind == NH_PRODUCT ? nh_exponent_of(d, e, i) : nh_int(d, 1);
         if (nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 1 || nh_number_of(d, x).p < 0) continue;
         power = power * nh_number_of(d, x).p < most_powers ? power * nh_number_of(d, x).p : most_powers;
@@ -54,13 +54,13 @@ static long power_of_time(const nh_model *o, nh_ex e, int *left)
 
 /* The power that a force t^p needs after two integrations, without functions of t.  More powers would be nearly
  * dependent on the functions, where t has a short interval. */
-static long powers_of_time(const nh_model *o)
+static long powers_of_time(const nh_model *model)
 {
     int left = longest_walk;
-    long p = power_of_time(o, o->system->lagrangian, &left);
-    for (size_t k = 0; k < o->m; k++) {
-        long here = power_of_time(o, o->rho[k], &left),
-             force = o->system->has_forces ? power_of_time(o, o->system->force[k], &left) : 0;
+    long p = power_of_time(model, model->system->lagrangian, &left);
+    for (size_t k = 0; k < model->m; k++) {
+        long here = power_of_time(model, model->rho[k], &left),
+             force = model->system->has_forces ? power_of_time(model, model->system->force[k], &left) : 0;
         p = here > p ? here : p;
         p = force > p ? force : p;
     }

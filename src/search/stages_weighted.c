@@ -31,19 +31,19 @@ static void put_up_to_number(const nh_family_list *s, nh_expr_set *l, nh_ex e)
 static nh_expr_set weight_two(const nh_family_list *s)
 {
     enum { most = 10, few = 7, longest = 30 };
-    const nh_model *o = s->o;
+    const nh_model *model = s->o;
     nh_expr_set f = {0};
     nh_expr_set_put_all(&f, s->w->potentials < most ? s->w->potentials : most, s->w->potential);
     nh_expr_set more = f, along = {0};
     for (size_t i = 0; i < f.n; i++)
-        for (size_t j = 0; j < s->w->waves; j++) put_up_to_number(s, &more, nh_diff(o->dag, f.e[i], s->w->wave[j]));
-    for (size_t i = 0; i < s->w->potentials && o->chart->quasi; i++)
-        for (size_t j = 0; j < o->n; j++) {
-            nh_ex slope = nh_simplify_short(o->dag, nh_model_X(o, j, s->w->potential[i]), 0);
-            if (nh_complexity(o->dag, slope) <= longest) put_up_to_number(s, &along, slope);
+        for (size_t j = 0; j < s->w->waves; j++) put_up_to_number(s, &more, nh_diff(model->dag, f.e[i], s->w->wave[j]));
+    for (size_t i = 0; i < s->w->potentials && model->chart->quasi; i++)
+        for (size_t j = 0; j < model->n; j++) {
+            nh_ex slope = nh_simplify_short(model->dag, nh_model_X(model, j, s->w->potential[i]), 0);
+            if (nh_complexity(model->dag, slope) <= longest) put_up_to_number(s, &along, slope);
         }
     if (along.n <= few) nh_expr_set_put_all(&f, along.n, along.e);
-    return more.n <= few && !o->chart->quasi ? more : f;
+    return more.n <= few && !model->chart->quasi ? more : f;
 }
 
 void nh_stage_weight_4(nh_family_list *s)

@@ -19,49 +19,49 @@ typedef struct {
     size_t n;
 } component;
 
-static size_t list_field(const nh_model *o, nh_field *z, component *out)
+static size_t list_field(const nh_model *model, nh_field *z, component *out)
 {
     if (!z->space) return 0;
     out[0] = (component){.one = &z->time, .n = 1};
-    out[1] = (component){.array = &z->space, .n = o->m};
-    out[2] = (component){.array = &z->velocity, .n = o->n};
+    out[1] = (component){.array = &z->space, .n = model->m};
+    out[2] = (component){.array = &z->velocity, .n = model->n};
     return 3;
 }
 
-static size_t list(const nh_model *o, nh_symmetry *z, component *out)
+static size_t list(const nh_model *model, nh_symmetry *z, component *out)
 {
     size_t n = 0;
     out[n++] = (component){.one = &z->Z0, .n = 1};
-    out[n++] = (component){.array = &z->zeta, .n = o->n};
-    out[n++] = (component){.array = &z->W, .n = o->n};
-    out[n++] = (component){.array = &z->coordinate_rate, .n = o->m};
-    out[n++] = (component){.array = &z->bracket_form, .n = o->k};
-    if (z->relative_rate) out[n++] = (component){.array = &z->relative_rate, .n = o->m};
-    n += list_field(o, &z->field, out + n);
-    n += list_field(o, &z->relative, out + n);
-    return n + list_field(o, &z->bracket, out + n);
+    out[n++] = (component){.array = &z->zeta, .n = model->n};
+    out[n++] = (component){.array = &z->W, .n = model->n};
+    out[n++] = (component){.array = &z->coordinate_rate, .n = model->m};
+    out[n++] = (component){.array = &z->bracket_form, .n = model->k};
+    if (z->relative_rate) out[n++] = (component){.array = &z->relative_rate, .n = model->m};
+    n += list_field(model, &z->field, out + n);
+    n += list_field(model, &z->relative, out + n);
+    return n + list_field(model, &z->bracket, out + n);
 }
 
-static void put_values(nh_model *o, const nh_ex *fixed, nh_symmetry *z)
+static void put_values(nh_model *model, const nh_ex *fixed, nh_symmetry *z)
 {
     component c[most_components];
-    for (size_t k = list(o, z, c); k-- > 0;)
+    for (size_t k = list(model, z, c); k-- > 0;)
         for (size_t i = 0; i < c[k].n; i++) {
             nh_ex *e = c[k].one ? c[k].one : &(*c[k].array)[i];
-            *e = nh_simplify_short(o->dag, nh_fixed_values(o, fixed, *e), 0);
+            *e = nh_simplify_short(model->dag, nh_fixed_values(model, fixed, *e), 0);
         }
 }
 
 /* From a copy into the model. */
-static void bring(nh_model *o, const nh_model *copy, nh_symmetry *z)
+static void bring(nh_model *model, const nh_model *copy, nh_symmetry *z)
 {
     component c[most_components];
-    size_t components = list(o, z, c), total = 0;
+    size_t components = list(model, z, c), total = 0;
     for (size_t k = 0; k < components; k++) total += c[k].n;
-    nh_ex *all = nh_arena_alloc(o->arena, (total + 1) * sizeof *all);
+    nh_ex *all = nh_arena_alloc(model->arena, (total + 1) * sizeof *all);
     for (size_t k = 0, at = 0; k < components; at += c[k++].n)
         memcpy(all + at, c[k].one ? c[k].one : *c[k].array, c[k].n * sizeof *all);
-    nh_dag_bring(o->dag, copy->dag, total, all);
+    nh_dag_bring(model->dag, copy->dag, total, all);
     for (size_t k = 0, at = 0; k < components; at += c[k++].n)
         if (c[k].one) *c[k].one = all[at];
         else *c[k].array = all + at;
@@ -94,33 +94,34 @@ static void find(size_t index, void *context)
     if (f->has_symmetry && f->proof.fixed) put_values(t->model, f->proof.fixed, &f->symmetry);
 }
 
-static void find_all(nh_analysis *r, const nh_points *points, size_t n, nh_current *current)
+static void find_all(nh_analysis *result, const nh_points *points, size_t n, nh_current *current)
 {
-    if (n) nh_model_G(r->model); /* every symmetry needs it: once is enough */
+    if (n) nh_model_G(result->model); /* every symmetry needs it: once is enough */
     for (size_t first = 0; first < n; first += together) {
         size_t count = n - first < together ? n - first : together;
-        tasks x = {.r = r, .points = points};
+        tasks x = {.r = result, .points = points};
         for (size_t k = 0; k < count; k++) x.task[k].current = &current[first + k];
-        nh_parallel(count, nh_threads(r->options.threads), find, &x);
+        nh_parallel(count, nh_threads(result->options.threads), find, &x);
         for (size_t k = 0; k < count; k++) {
             task *t = &x.task[k];
-            if (t->current->has_symmetry) bring(r->model, t->model, &t->current->symmetry);
-            else nh_analysis_warn(r, "no symmetry could be computed: %s", t->trouble.what);
+            if (t->current->has_symmetry) bring(result->model, t->model, &t->current->symmetry);
+            else nh_analysis_warn(result, "no symmetry could be computed: %s", t->trouble.what);
             nh_model_copy_free(t->model);
             nh_dag_free(t->dag);
         }
     }
 }
 
-void nh_symmetries_find(nh_analysis *r)
+void nh_symmetries_find(nh_analysis *result)
 {
     enum { generic_count = 24 };
     nh_error trouble;
     nh_error_clear(&trouble);
     nh_progress("the symmetries", -1);
-    nh_points *points = nh_points_create(r->model, generic_count, 1, (uint64_t)r->options.seed + 202, &trouble);
-    if (!points) nh_analysis_warn(r, "no symmetry could be computed: %s", trouble.what);
-    if (points) find_all(r, points, r->count, r->found);
-    if (points) find_all(r, points, r->pieces, r->piece);
+    nh_points *points =
+        nh_points_create(result->model, generic_count, 1, (uint64_t)result->options.seed + 202, &trouble);
+    if (!points) nh_analysis_warn(result, "no symmetry could be computed: %s", trouble.what);
+    if (points) find_all(result, points, result->count, result->found);
+    if (points) find_all(result, points, result->pieces, result->piece);
     nh_points_free(points);
 }

@@ -68,17 +68,17 @@ static void list_products(space *x)
                 put(x, nh_mul(d, x->current[i].phi, x->current[j].phi), nh_mul(d, x->symbol[i], x->symbol[j]));
 }
 
-nh_relation_space *nh_symmetry_space_relations(nh_arena *arena, const nh_model *o, const nh_options *options,
+nh_relation_space *nh_symmetry_space_relations(nh_arena *arena, const nh_model *model, const nh_options *options,
                                                size_t columns, size_t rows, const nh_ex *entry)
 {
-    nh_relation_columns q = {.dag = o->dag,
+    nh_relation_columns q = {.dag = model->dag,
                              .columns = columns,
                              .rows = rows,
                              .entry = entry,
-                             .variables = 1 + o->m + o->n,
-                             .variable = o->chart->symbol,
-                             .parameters = o->system->parameters,
-                             .parameter = o->parameter,
+                             .variables = 1 + model->m + model->n,
+                             .variable = model->chart->symbol,
+                             .parameters = model->system->parameters,
+                             .parameter = model->parameter,
                              .max_terms = (size_t)options->proof_terms};
     return nh_relation_space_of(arena, &q);
 }
@@ -116,12 +116,14 @@ static bool make_independent(space *x, nh_symmetry_space *out)
 
 static bool is_autonomous(const nh_submanifold *s)
 {
-    const nh_model *o = s->model;
-    bool good = !nh_depends(o->dag, o->E, o->system->t);
-    for (size_t r = 0; r < o->m && good; r++)
-        good = !nh_depends(o->dag, o->rho[r], o->system->t) && !nh_depends(o->dag, o->p[r], o->system->t);
-    for (size_t i = 0; i < o->n && good; i++) good = !nh_depends(o->dag, o->a[i], o->system->t);
-    for (size_t a = 0; a < o->k && good; a++) good = nh_normal_is_zero(o->dag, s->form[a * (1 + o->m)], 0) == NH_ZERO;
+    const nh_model *model = s->model;
+    bool good = !nh_depends(model->dag, model->E, model->system->t);
+    for (size_t r = 0; r < model->m && good; r++)
+        good = !nh_depends(model->dag, model->rho[r], model->system->t) &&
+               !nh_depends(model->dag, model->p[r], model->system->t);
+    for (size_t i = 0; i < model->n && good; i++) good = !nh_depends(model->dag, model->a[i], model->system->t);
+    for (size_t a = 0; a < model->k && good; a++)
+        good = nh_normal_is_zero(model->dag, s->form[a * (1 + model->m)], 0) == NH_ZERO;
     return good;
 }
 
@@ -172,20 +174,20 @@ static bool is_translation(const space *x, nh_ex phi)
 static void conditions(const space *x, nh_space_kind kind, nh_ex phi, nh_ex *out)
 {
     const nh_bracket_fields *b = x->fields;
-    const nh_model *o = x->o;
+    const nh_model *model = x->o;
     if (is_translation(x, phi)) {
         for (size_t i = rows_of(x, kind); i-- > 0;) out[i] = nh_int(x->d, 0);
         return;
     }
     if (kind == NH_SPACE_INSIDE)
-        for (size_t a = 0; a < b->across; a++) *out++ = nh_bracket_fields_apply(o, b->U + a * b->width, phi);
+        for (size_t a = 0; a < b->across; a++) *out++ = nh_bracket_fields_apply(model, b->U + a * b->width, phi);
     if (kind == NH_SPACE_CASE1 || kind == NH_SPACE_BEST)
-        for (size_t c = 0; c < b->all; c++) *out++ = nh_bracket_fields_apply(o, b->V + c * b->width, phi);
+        for (size_t c = 0; c < b->all; c++) *out++ = nh_bracket_fields_apply(model, b->V + c * b->width, phi);
     if (kind != NH_SPACE_PROJECTABLE && kind != NH_SPACE_BEST) return;
-    nh_ex *Z = nh_alloc_array(1 + o->m, sizeof *Z);
+    nh_ex *Z = nh_alloc_array(1 + model->m, sizeof *Z);
     components(x, phi, Z);
-    for (size_t s = 0; s <= o->m; s++)
-        for (size_t i = 0; i < o->n; i++) *out++ = nh_model_Y(o, i, Z[s]);
+    for (size_t s = 0; s <= model->m; s++)
+        for (size_t i = 0; i < model->n; i++) *out++ = nh_model_Y(model, i, Z[s]);
     nh_free(Z);
 }
 

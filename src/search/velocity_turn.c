@@ -79,7 +79,7 @@ static bool of_s_alone(const problem *p, nh_ex f)
 static bool speed_of_turn(const problem *p, nh_ex N, nh_ex D, nh_ex *f)
 {
     nh_dag *d = p->d;
-    const nh_model *o = p->o;
+    const nh_model *model = p->o;
     static const int at[][2] = {{0, 1}, {1, 0}, {1, 1}};
     nh_ex square = nh_powi(d, D, 2), value[2], ds = nh_int(d, 0);
     for (size_t i = 0; i < sizeof at / sizeof *at && nh_is_zero(d, ds); i++) {
@@ -89,7 +89,7 @@ static bool speed_of_turn(const problem *p, nh_ex N, nh_ex D, nh_ex *f)
     if (nh_is_zero(d, ds)) return false;
     nh_ex slope = nh_div(d, nh_diff(d, square, p->s), nh_mul(d, nh_int(d, 2), square));
     nh_ex rate = nh_product(d, 4, (nh_ex[]){slope, p->rate_of_s, N, p->w[1]});
-    rate = nh_add(d, rate, nh_sub(d, nh_mul(d, N, p->a[1]), nh_mul(d, p->w[1], nh_model_gamma(o, N))));
+    rate = nh_add(d, rate, nh_sub(d, nh_mul(d, N, p->a[1]), nh_mul(d, p->w[1], nh_model_gamma(model, N))));
     nh_ex twice = nh_add(d, nh_mul(d, N, N), nh_product(d, 3, (nh_ex[]){square, p->w[1], p->w[1]}));
     rate = short_form(p, nh_substitute(d, rate, 2, p->w, value));
     twice = short_form(p, nh_substitute(d, twice, 2, p->w, value));
@@ -181,16 +181,16 @@ static bool turn(const problem *p, bool general)
 }
 
 /* The integral, and where the root of M_11 jumps, depend on which velocity is the first. */
-void nh_velocity_turn_search(nh_stage_solver *x)
+void nh_velocity_turn_search(nh_stage_solver *solver)
 {
-    const nh_model *o = x->r->model;
-    const nh_ex *w = o->chart->w, *a = o->a;
-    if (o->n != 2 || o->chart->implicit) return;
-    for (size_t k = 0; k < x->r->count && !nh_stage_solver_done(x); k++) {
-        nh_ex Q = x->r->found[k].phi;
-        problem p = {.x = x, .o = o, .d = o->dag, .w = {w[0], w[1]}, .a = {a[0], a[1]}};
-        problem q = {.x = x, .o = o, .d = o->dag, .w = {w[1], w[0]}, .a = {a[1], a[0]}};
-        if (x->r->found[k].series || !quadratic(&p, Q) || !quadratic(&q, Q)) continue;
+    const nh_model *model = solver->r->model;
+    const nh_ex *w = model->chart->w, *a = model->a;
+    if (model->n != 2 || model->chart->implicit) return;
+    for (size_t k = 0; k < solver->r->count && !nh_stage_solver_done(solver); k++) {
+        nh_ex Q = solver->r->found[k].phi;
+        problem p = {.x = solver, .o = model, .d = model->dag, .w = {w[0], w[1]}, .a = {a[0], a[1]}};
+        problem q = {.x = solver, .o = model, .d = model->dag, .w = {w[1], w[0]}, .a = {a[1], a[0]}};
+        if (solver->r->found[k].series || !quadratic(&p, Q) || !quadratic(&q, Q)) continue;
         if (!turn(&p, true) && !turn(&q, true) && !turn(&p, false)) turn(&q, false);
         return;
     }

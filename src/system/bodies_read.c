@@ -266,12 +266,12 @@ bool nh_joint_turns(const nh_joint *j, size_t k) { return kinds[j->kind].turns >
 
 static bool coordinate_of(reader *r, const nh_joint *j, size_t k, const nh_deck_node *name)
 {
-    nh_system *s = r->system;
-    nh_screw *screw = &s->chain->screw[j->first + k];
+    nh_system *system = r->system;
+    nh_screw *screw = &system->chain->screw[j->first + k];
     if (!nh_deck_is(r->deck, name, NH_DECK_SCALAR, "a name", r->error)) return false;
-    long known = nh_system_coordinate(s, name->text);
+    long known = nh_system_coordinate(system, name->text);
     for (size_t i = 0; i < j->first + k && known >= 0; i++)
-        if (s->chain->screw[i].coordinate == known) {
+        if (system->chain->screw[i].coordinate == known) {
             nh_deck_fail(r->deck, name, 0, r->error, "`%s` is already the coordinate of another degree of freedom",
                          name->text);
             return nh_error_hint(r->error, "if one joint drives another, write `values: [%s]` for the second joint",
@@ -279,11 +279,11 @@ static bool coordinate_of(reader *r, const nh_joint *j, size_t k, const nh_deck_
         }
     if (known < 0) {
         if (!nh_system_new_name(r, name)) return false;
-        known = (long)s->coordinates++;
-        s->coordinate[known] =
-            (nh_coordinate){.name = name->text, .doc = j->doc, .type = NH_PLAIN, .q = nh_symbol(s->dag, name->text)};
+        known = (long)system->coordinates++;
+        system->coordinate[known] = (nh_coordinate){
+            .name = name->text, .doc = j->doc, .type = NH_PLAIN, .q = nh_symbol(system->dag, name->text)};
     }
-    nh_coordinate *q = &s->coordinate[known];
+    nh_coordinate *q = &system->coordinate[known];
     if (q->type == NH_PLAIN) q->type = nh_joint_turns(j, k) ? NH_ANGLE : NH_LENGTH;
     screw->coordinate = known;
     return true;
@@ -306,23 +306,23 @@ static bool turns_by_orientation(reader *r, const nh_joint *j, const nh_deck_nod
 /* The coordinates of a joint whose last three screws are the turns of an orientation. */
 static bool oriented(reader *r, nh_joint *j, const nh_deck_node *names)
 {
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     size_t shifts = j->screws - 3;
     nh_deck_node fallback = *j->node;
     fallback.kind = NH_DECK_SCALAR;
-    for (size_t k = 0; k < j->screws; k++) s->chain->screw[j->first + k].coordinate = -1;
+    for (size_t k = 0; k < j->screws; k++) system->chain->screw[j->first + k].coordinate = -1;
     for (size_t k = 0; k < shifts; k++) {
         fallback.text = names ? NULL : default_name(r, j, k);
         if (!coordinate_of(r, j, k, names ? names->item[k] : &fallback)) return false;
     }
-    fallback.text = shifts ? nh_arena_printf(s->arena, "%s_R", j->name) : j->name;
+    fallback.text = shifts ? nh_arena_printf(system->arena, "%s_R", j->name) : j->name;
     const nh_deck_node *name = names ? names->item[shifts] : &fallback;
     if (!nh_deck_is(r->deck, name, NH_DECK_SCALAR, "a name", r->error)) return false;
-    nh_orientation *known = nh_orientation_named(s, name->text);
+    nh_orientation *known = nh_orientation_named(system, name->text);
     if (!known && !nh_orientation_declare(r, NULL, name, j->doc)) return false;
-    j->orientation = known ? known - s->orientation : (long)s->orientations - 1;
-    for (size_t i = 0; i < s->chain->joints; i++)
-        if (&s->chain->joint[i] != j && s->chain->joint[i].orientation == j->orientation)
+    j->orientation = known ? known - system->orientation : (long)system->orientations - 1;
+    for (size_t i = 0; i < system->chain->joints; i++)
+        if (&system->chain->joint[i] != j && system->chain->joint[i].orientation == j->orientation)
             return nh_deck_fail(r->deck, name, 0, r->error, "`%s` is already the orientation of another joint",
                                 name->text);
     return true;

@@ -13,26 +13,27 @@ static const char *const axis_names[] = {"x", "y", "z", "-x", "-y", "-z"};
 /* ---- expressions ---- */
 
 /* The first of t (unless it may occur), the coordinates and the velocities that e contains, or false. */
-static bool moving(const nh_system *s, nh_ex e, bool time, nh_ex *out)
+static bool moving(const nh_system *system, nh_ex e, bool time, nh_ex *out)
 {
-    *out = s->t;
-    if (!time && nh_depends(s->dag, e, s->t)) return true;
-    for (size_t i = 0; i < 2 * s->coordinates; i++) {
-        const nh_coordinate *c = &s->coordinate[i / 2];
+    *out = system->t;
+    if (!time && nh_depends(system->dag, e, system->t)) return true;
+    for (size_t i = 0; i < 2 * system->coordinates; i++) {
+        const nh_coordinate *c = &system->coordinate[i / 2];
         *out = i % 2 ? c->v : c->q;
-        if (nh_depends(s->dag, e, *out)) return true;
+        if (nh_depends(system->dag, e, *out)) return true;
     }
     return false;
 }
 
 static bool fixed(reader *r, const nh_deck_node *node, const char *what, bool time, nh_ex *out)
 {
-    const nh_system *s = r->system;
+    const nh_system *system = r->system;
     nh_ex varies;
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, what, r->error)) return false;
-    if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, out, r->error)) return false;
-    if (!moving(s, *out, time, &varies)) return true;
-    nh_deck_fail(r->deck, node, 0, r->error, "%s must be constant, but `%s` varies", what, nh_name_of(s->dag, varies));
+    if (!nh_system_read_expression(system, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, out, r->error)) return false;
+    if (!moving(system, *out, time, &varies)) return true;
+    nh_deck_fail(r->deck, node, 0, r->error, "%s must be constant, but `%s` varies", what,
+                 nh_name_of(system->dag, varies));
     return nh_error_hint(r->error, time ? "use only numbers, parameters and t" : "use only numbers and parameters");
 }
 
@@ -242,13 +243,13 @@ static bool axes_of_joint(reader *r, const nh_joint *j, nh_screw *s)
 /* The displacement where the file gives an expression for it. */
 static bool value_of(reader *r, const nh_deck_node *node, nh_ex *out)
 {
-    const nh_system *s = r->system;
+    const nh_system *system = r->system;
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "an expression", r->error)) return false;
-    if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, out, r->error)) return false;
-    for (size_t i = 0; i < s->coordinates; i++) {
-        if (!nh_depends(s->dag, *out, s->coordinate[i].v)) continue;
+    if (!nh_system_read_expression(system, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, out, r->error)) return false;
+    for (size_t i = 0; i < system->coordinates; i++) {
+        if (!nh_depends(system->dag, *out, system->coordinate[i].v)) continue;
         nh_deck_fail(r->deck, node, 0, r->error, "the velocity `%s` cannot be used here",
-                     nh_name_of(s->dag, s->coordinate[i].v));
+                     nh_name_of(system->dag, system->coordinate[i].v));
         return nh_error_hint(r->error, "a displacement is an expression in coordinates and t; a condition on "
                                        "velocities stands under `constraints:`");
     }
@@ -257,8 +258,8 @@ static bool value_of(reader *r, const nh_deck_node *node, nh_ex *out)
 
 static bool joint_values(reader *r, nh_joint *j)
 {
-    nh_system *s = r->system;
-    nh_screw *screw = &s->chain->screw[j->first];
+    nh_system *system = r->system;
+    nh_screw *screw = &system->chain->screw[j->first];
     nh_ex shift[3], pitch;
     const nh_deck_node *values = nh_deck_get(j->node, "values");
     if (!vector_of(r, j->node, "at", "a position", shift) || !rotation_of(r, j->node, &j->placement)) return false;
@@ -268,18 +269,19 @@ static bool joint_values(reader *r, nh_joint *j)
         screw[k].turns = nh_joint_turns(j, k);
         screw[k].pitch = pitch;
         if (j->orientation >= 0 && k + 3 >= j->screws) {
-            const nh_orientation *o = &s->orientation[j->orientation];
+            const nh_orientation *o = &system->orientation[j->orientation];
             size_t axis = k + 3 - j->screws;
             screw[k].oriented = true;
             screw[k].matrix = axis ? NULL : o->matrix;
-            screw[k].s = nh_int(s->dag, 0);
+            screw[k].s = nh_int(system->dag, 0);
             screw[k].rate = o->body[axis];
             screw[k].framed = o->framed_body[axis];
             continue;
         }
-        if (!values) s->coordinate[screw[k].coordinate].counted |= screw[k].turns && !nh_is_zero(s->dag, pitch);
+        if (!values)
+            system->coordinate[screw[k].coordinate].counted |= screw[k].turns && !nh_is_zero(system->dag, pitch);
         if (values && !value_of(r, values->item[k], &screw[k].s)) return false;
-        if (!values) screw[k].s = s->coordinate[screw[k].coordinate].q;
+        if (!values) screw[k].s = system->coordinate[screw[k].coordinate].q;
     }
     return true;
 }
@@ -386,20 +388,21 @@ static bool read_gravity(reader *r)
 
 bool nh_system_read_chain(reader *r)
 {
-    nh_system *s = r->system;
-    nh_chain *c = s->chain;
+    nh_system *system = r->system;
+    nh_chain *c = system->chain;
     if (!c) return true;
     for (size_t i = 0; i < c->bodies; i++)
         if (!body_values(r, &c->body[i])) return false;
     for (size_t i = 0; i < c->joints; i++)
         if (!joint_values(r, &c->joint[i])) return false;
     if (!read_gravity(r) || !read_wheels(r)) return false;
-    nh_ex *q = nh_system_take(r, 2 * s->coordinates, sizeof *q), *v = q + s->coordinates;
-    for (size_t i = 0; i < s->coordinates; i++) {
-        q[i] = s->coordinate[i].q;
-        v[i] = s->coordinate[i].v;
+    nh_ex *q = nh_system_take(r, 2 * system->coordinates, sizeof *q), *v = q + system->coordinates;
+    for (size_t i = 0; i < system->coordinates; i++) {
+        q[i] = system->coordinate[i].q;
+        v[i] = system->coordinate[i].v;
     }
-    nh_chain_build(c,
-                   &(nh_chain_scope){.dag = s->dag, .arena = s->arena, .t = s->t, .m = s->coordinates, .q = q, .v = v});
+    nh_chain_build(
+        c, &(nh_chain_scope){
+               .dag = system->dag, .arena = system->arena, .t = system->t, .m = system->coordinates, .q = q, .v = v});
     return true;
 }

@@ -118,10 +118,11 @@ nh_ex nh_chart_shown(const nh_chart *c, nh_ex e)
 
 nh_ex nh_chart_in_velocities(const nh_chart *c, nh_ex shown)
 {
-    const nh_system *s = c->system;
+    const nh_system *system = c->system;
     for (size_t k = 0; k < c->roots; k++)
-        shown = nh_substitute(s->dag, shown, 1, &c->root_of[k].symbol, &s->coordinate[c->root_of[k].coordinate].v);
-    return nh_orientation_unshown(s, shown);
+        shown = nh_substitute(system->dag, shown, 1, &c->root_of[k].symbol,
+                              &system->coordinate[c->root_of[k].coordinate].v);
+    return nh_orientation_unshown(system, shown);
 }
 
 nh_ex nh_chart_composed(const nh_chart *c, nh_ex shown, const nh_chart *other)

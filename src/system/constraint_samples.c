@@ -18,27 +18,27 @@ static const double small_step = 1e-14, satisfied = 1e-9;
 
 static void cloud_tape(nh_constraint_samples *c)
 {
-    nh_system *s = c->system;
-    nh_dag *d = s->dag;
+    nh_system *system = c->system;
+    nh_dag *d = system->dag;
     nh_ex *in = nh_alloc_array(c->width, sizeof *in), *out = nh_alloc_array(c->k * (1 + c->m) + 1, sizeof *out);
-    in[0] = s->t;
+    in[0] = system->t;
     for (size_t i = 0; i < c->m; i++) {
-        in[1 + i] = s->coordinate[i].q;
-        in[1 + c->m + i] = s->coordinate[i].v;
+        in[1 + i] = system->coordinate[i].q;
+        in[1 + c->m + i] = system->coordinate[i].v;
     }
     c->entire = true;
     for (size_t a = 0; a < c->k; a++) {
-        out[a] = nh_sub(d, s->constraint[a].lhs, s->constraint[a].rhs);
+        out[a] = nh_sub(d, system->constraint[a].lhs, system->constraint[a].rhs);
         c->entire = c->entire && nh_is_entire(d, out[a], c->width, in);
         for (size_t i = 0; i < c->m; i++) out[c->k + a + i * c->k] = nh_diff(d, out[a], in[1 + c->m + i]);
     }
-    nh_ex *symbol = nh_alloc_array(s->parameters + 1, sizeof *symbol);
-    double *value = nh_alloc_array(s->parameters + 1, sizeof *value);
-    for (size_t i = 0; i < s->parameters; i++) {
-        const nh_parameter *p = &s->parameter[i];
+    nh_ex *symbol = nh_alloc_array(system->parameters + 1, sizeof *symbol);
+    double *value = nh_alloc_array(system->parameters + 1, sizeof *value);
+    for (size_t i = 0; i < system->parameters; i++) {
+        const nh_parameter *p = &system->parameter[i];
         symbol[i] = p->symbol, value[i] = c->written && p->set ? p->written : p->value;
     }
-    c->tape = nh_tape_create(d, c->width, in, c->k * (1 + c->m), out, s->parameters, symbol, value);
+    c->tape = nh_tape_create(d, c->width, in, c->k * (1 + c->m), out, system->parameters, symbol, value);
     nh_free(value);
     nh_free(symbol);
     c->work = nh_tape_work_create(c->tape);
@@ -110,19 +110,19 @@ static void measure(nh_constraint_samples *c, const double *z)
 static void cloud_fill(nh_constraint_samples *c, uint64_t seed)
 {
     double *low = nh_alloc_array(2 * c->width, sizeof *low), *high = low + c->width;
-    nh_system *s = c->system;
+    nh_system *system = c->system;
     c->unit = nh_alloc_array(2 * c->m + c->k + 1, sizeof *c->unit);
     c->speed = c->unit + c->m;
     c->size = c->speed + c->m;
     for (size_t a = 0; a < c->k; a++) c->size[a] = 0;
-    nh_domain_range(s, s->t, &low[0], &high[0]);
+    nh_domain_range(system, system->t, &low[0], &high[0]);
     for (size_t i = 0; i < c->m; i++) {
-        nh_domain_range(s, s->coordinate[i].q, &low[1 + i], &high[1 + i]);
-        nh_domain_range(s, s->coordinate[i].v, &low[1 + c->m + i], &high[1 + c->m + i]);
+        nh_domain_range(system, system->coordinate[i].q, &low[1 + i], &high[1 + i]);
+        nh_domain_range(system, system->coordinate[i].v, &low[1 + c->m + i], &high[1 + c->m + i]);
     }
     for (size_t i = 0; i < c->m; i++) {
         double half = (high[1 + c->m + i] - low[1 + c->m + i]) / 2;
-        c->unit[i] = nh_chart_unit(s, i);
+        c->unit[i] = nh_chart_unit(system, i);
         c->speed[i] = half > 0 && isfinite(half) ? half : 1;
     }
     nh_sampler *sampler = nh_sampler_create(c->width, low, high, seed);
@@ -157,15 +157,17 @@ static const double rounding = 1e-13; /* of the size of a row of df/dv */
 /* Is the whole row of df/dv zero?  Then it must not be scaled up from rounding, as a row in small units is. */
 static bool row_vanishes(const nh_constraint_samples *c, size_t a)
 {
-    nh_system *s = c->system;
+    nh_system *system = c->system;
     if (c->size[a] == 0 || c->size[a] > rounding) return c->size[a] == 0;
     nh_ex *symbol = nh_alloc_array(c->width, sizeof *symbol),
-          f = nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs);
-    symbol[0] = s->t;
-    for (size_t i = 0; i < c->m; i++) symbol[1 + i] = s->coordinate[i].q, symbol[1 + c->m + i] = s->coordinate[i].v;
+          f = nh_sub(system->dag, system->constraint[a].lhs, system->constraint[a].rhs);
+    symbol[0] = system->t;
+    for (size_t i = 0; i < c->m; i++)
+        symbol[1 + i] = system->coordinate[i].q, symbol[1 + c->m + i] = system->coordinate[i].v;
     bool zero = true;
     for (size_t j = 0; j < c->m && zero; j++)
-        zero = nh_embedding_vanishes(s, c->width, symbol, c->count, c->point, nh_diff(s->dag, f, s->coordinate[j].v));
+        zero = nh_embedding_vanishes(system, c->width, symbol, c->count, c->point,
+                                     nh_diff(system->dag, f, system->coordinate[j].v));
     nh_free(symbol);
     return zero;
 }
@@ -184,14 +186,14 @@ static void put_row(const nh_constraint_samples *c, size_t p, size_t i, bool emp
 /* df_a/dv of this velocity; none (index m): f_a at rest.  False: it contains velocities. */
 static bool linear_part(const nh_constraint_samples *c, size_t a, size_t velocity, nh_ex *e)
 {
-    const nh_system *s = c->system;
-    nh_ex f = nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs), zero = nh_int(s->dag, 0);
-    if (velocity < c->m) f = nh_diff(s->dag, f, s->coordinate[velocity].v);
+    const nh_system *system = c->system;
+    nh_ex f = nh_sub(system->dag, system->constraint[a].lhs, system->constraint[a].rhs), zero = nh_int(system->dag, 0);
+    if (velocity < c->m) f = nh_diff(system->dag, f, system->coordinate[velocity].v);
     else
-        for (size_t j = 0; j < c->m; j++) f = nh_substitute(s->dag, f, 1, &s->coordinate[j].v, &zero);
-    *e = nh_system_values(s, s->dag, f);
+        for (size_t j = 0; j < c->m; j++) f = nh_substitute(system->dag, f, 1, &system->coordinate[j].v, &zero);
+    *e = nh_system_values(system, system->dag, f);
     for (size_t j = 0; j < c->m; j++)
-        if (nh_depends(s->dag, *e, s->coordinate[j].v)) return false;
+        if (nh_depends(system->dag, *e, system->coordinate[j].v)) return false;
     return true;
 }
 
@@ -286,7 +288,7 @@ bool nh_constraint_samples_init_written(nh_constraint_samples *c, nh_system *sys
 /* Points at the first constraint that contradicts those before it. */
 static bool contradiction(const nh_constraint_samples *c, uint64_t seed, nh_error *error)
 {
-    const nh_system *s = c->system;
+    const nh_system *system = c->system;
     size_t a = 0;
     for (; a < c->k; a++) {
         nh_constraint_samples part;
@@ -295,40 +297,40 @@ static bool contradiction(const nh_constraint_samples *c, uint64_t seed, nh_erro
         nh_constraint_samples_clear(&part);
         if (points == 0) break;
     }
-    const nh_deck_node *node = s->constraint[a < c->k ? a : 0].node;
+    const nh_deck_node *node = system->constraint[a < c->k ? a : 0].node;
     if (a == 0) {
-        nh_deck_fail(s->deck, node, 0, error, "no point of the sampling domain satisfies this constraint");
+        nh_deck_fail(system->deck, node, 0, error, "no point of the sampling domain satisfies this constraint");
         return nh_error_hint(error, "the constraint contradicts itself, or `domain:` excludes all its solutions");
     }
-    nh_deck_fail(s->deck, node, 0, error,
+    nh_deck_fail(system->deck, node, 0, error,
                  "this constraint contradicts those before it: no point of the sampling domain satisfies them all");
     return nh_error_hint(error, "correct one of them; or does `domain:` exclude their common solutions?");
 }
 
 bool nh_constraint_samples_check_rank(const nh_constraint_samples *c, uint64_t seed, nh_error *error)
 {
-    const nh_system *s = c->system;
+    const nh_system *system = c->system;
     if (c->count == 0) return contradiction(c, seed, error);
     size_t redundant, rank;
     bool exact = generic_rank_of(c, &rank, &redundant);
     if (!exact) rank = rank_by_numbers(c, &redundant);
     if (rank < c->k && exact && contradicts(c, redundant)) {
         nh_deck_fail(
-            s->deck, s->constraint[redundant].node, 0, error,
+            system->deck, system->constraint[redundant].node, 0, error,
             "this constraint contradicts those before it: at almost all positions they have no common solution");
         return nh_error_hint(error, "correct one of them");
     }
     if (rank < c->k) {
-        nh_deck_fail(s->deck, s->constraint[redundant].node, 0, error,
+        nh_deck_fail(system->deck, system->constraint[redundant].node, 0, error,
                      "this constraint follows from the others: the %zu constraints have rank %zu%s", c->k, rank,
                      exact ? "" : ", by numbers");
-        return nh_error_hint(error, s->constraint[redundant].position
+        return nh_error_hint(error, system->constraint[redundant].position
                                         ? "as an equation between positions it follows from the other constraints or "
                                           "contradicts them; remove it"
                                         : "it follows from the other constraints; remove it");
     }
     if (c->k < c->m) return true;
-    nh_deck_fail(s->deck, s->constraint[0].node, 0, error,
+    nh_deck_fail(system->deck, system->constraint[0].node, 0, error,
                  "%zu independent constraints on %zu coordinates leave no freedom to move", c->k, c->m);
     return nh_error_hint(error, "a system needs fewer constraints than coordinates");
 }

@@ -39,25 +39,25 @@ static nh_unit unit_of_coordinate(const nh_coordinate *c)
 static bool has_unit(const nh_coordinate *c) { return *c->unit || c->type != NH_PLAIN; }
 
 /* The unit of time is the second, unless some unit of the file contains another unit of time: then it is not known. */
-static nh_unit unit_of_time(const nh_system *s)
+static nh_unit unit_of_time(const nh_system *system)
 {
     nh_unit second = {.power = {[NH_UNIT_SECOND] = 1}, .scale = 1};
     bool clock = false;
-    for (size_t i = 0; i < s->parameters; i++) clock = clock || nh_unit_of(s->parameter[i].unit).clock;
-    for (size_t i = 0; i < s->coordinates; i++) clock = clock || nh_unit_of(s->coordinate[i].unit).clock;
+    for (size_t i = 0; i < system->parameters; i++) clock = clock || nh_unit_of(system->parameter[i].unit).clock;
+    for (size_t i = 0; i < system->coordinates; i++) clock = clock || nh_unit_of(system->coordinate[i].unit).clock;
     if (clock) second.scale = NAN;
     return second;
 }
 
-static value value_of_symbol(const nh_system *s, nh_ex e)
+static value value_of_symbol(const nh_system *system, nh_ex e)
 {
-    nh_unit time = unit_of_time(s);
-    if (e == s->t) return (value){KNOWN, time};
-    for (size_t i = 0; i < s->parameters; i++)
-        if (e == s->parameter[i].symbol && *s->parameter[i].unit)
-            return (value){KNOWN, nh_unit_of(s->parameter[i].unit)};
-    for (size_t i = 0; i < s->coordinates; i++) {
-        const nh_coordinate *c = &s->coordinate[i];
+    nh_unit time = unit_of_time(system);
+    if (e == system->t) return (value){KNOWN, time};
+    for (size_t i = 0; i < system->parameters; i++)
+        if (e == system->parameter[i].symbol && *system->parameter[i].unit)
+            return (value){KNOWN, nh_unit_of(system->parameter[i].unit)};
+    for (size_t i = 0; i < system->coordinates; i++) {
+        const nh_coordinate *c = &system->coordinate[i];
         if (!has_unit(c)) continue;
         if (e == c->q) return (value){KNOWN, unit_of_coordinate(c)};
         if (e == c->v) return (value){KNOWN, nh_unit_product(unit_of_coordinate(c), time, -1)};
@@ -211,36 +211,37 @@ static void check_force(checker *k, size_t i, value energy)
     nh_unit_print(wanted, k->fault);
 }
 
-static bool any_unit(const nh_system *s)
+static bool any_unit(const nh_system *system)
 {
-    for (size_t i = 0; i < s->parameters; i++)
-        if (*s->parameter[i].unit) return true;
-    for (size_t i = 0; i < s->coordinates; i++)
-        if (*s->coordinate[i].unit) return true;
+    for (size_t i = 0; i < system->parameters; i++)
+        if (*system->parameter[i].unit) return true;
+    for (size_t i = 0; i < system->coordinates; i++)
+        if (*system->coordinate[i].unit) return true;
     return false;
 }
 
-size_t nh_dimension_check(nh_system *s, const char ***out)
+size_t nh_dimension_check(nh_system *system, const char ***out)
 {
     size_t count = 0;
-    const nh_deck_node *root = nh_deck_root(s->deck), *lagrangian = nh_deck_get(root, "lagrangian"),
+    const nh_deck_node *root = nh_deck_root(system->deck), *lagrangian = nh_deck_get(root, "lagrangian"),
                        *forces = nh_deck_get(root, "forces");
     if (!forces) forces = nh_deck_get(root, "dissipation");
-    const char **note = *out = nh_arena_alloc(s->arena, (s->constraints + s->coordinates + 2) * sizeof *note);
-    if (s->chain || !lagrangian || !any_unit(s)) return 0;
+    const char **note = *out =
+        nh_arena_alloc(system->arena, (system->constraints + system->coordinates + 2) * sizeof *note);
+    if (system->chain || !lagrangian || !any_unit(system)) return 0;
     nh_text fault;
     nh_text_init(&fault);
-    checker k = {s, nh_alloc_array(nh_dag_size(s->dag), sizeof *k.of), &fault};
-    value energy = check(&k, s->lagrangian);
+    checker k = {system, nh_alloc_array(nh_dag_size(system->dag), sizeof *k.of), &fault};
+    value energy = check(&k, system->lagrangian);
     bool good = !fault.length;
     add(&k, lagrangian, "the Lagrangian", note, &count);
-    for (size_t i = 0; i < s->constraints; i++) {
-        check_constraint(&k, &s->constraint[i]);
-        add(&k, s->constraint[i].node, "a constraint", note, &count);
+    for (size_t i = 0; i < system->constraints; i++) {
+        check_constraint(&k, &system->constraint[i]);
+        add(&k, system->constraint[i].node, "a constraint", note, &count);
     }
-    for (size_t i = 0; good && s->has_forces && i < s->coordinates; i++) {
+    for (size_t i = 0; good && system->has_forces && i < system->coordinates; i++) {
         check_force(&k, i, energy);
-        add(&k, forces, nh_arena_printf(s->arena, "the force on %s", s->coordinate[i].name), note, &count);
+        add(&k, forces, nh_arena_printf(system->arena, "the force on %s", system->coordinate[i].name), note, &count);
     }
     nh_free(k.of);
     nh_text_clear(&fault);

@@ -58,11 +58,11 @@ static void in_ground(reader *r, const place *p, nh_ex out[3])
 }
 
 /* "hand_x = l*cos(a)", for readers; of a long expression the name. */
-static const char *as_equation(nh_system *s, const char *name, nh_ex value)
+static const char *as_equation(nh_system *system, const char *name, nh_ex value)
 {
     enum { longest = 300 };
-    char *shown = nh_print_short(s->dag, value, longest);
-    const char *text = shown ? nh_arena_printf(s->arena, "%s = %s", name, shown) : name;
+    char *shown = nh_print_short(system->dag, value, longest);
+    const char *text = shown ? nh_arena_printf(system->arena, "%s = %s", name, shown) : name;
     nh_free(shown);
     return text;
 }
@@ -71,7 +71,7 @@ static const char *as_equation(nh_system *s, const char *name, nh_ex value)
 static bool read_point(reader *r, const nh_deck_node *item)
 {
     static const char *const keys[] = {"name", "body", "at", "doc"};
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     place p;
     nh_ex position[3];
     if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a point {name: ..., body: ..., at: [x, y, z]}", r->error) ||
@@ -83,19 +83,19 @@ static bool read_point(reader *r, const nh_deck_node *item)
         return nh_error_hint(r->error, "of a point named `hand`, the position is hand_x, hand_y, hand_z");
     }
     if (!nh_deck_is(r->deck, name, NH_DECK_SCALAR, "a name", r->error)) return false;
-    for (size_t b = 0; b < s->chain->bodies; b++)
-        if (!strcmp(s->chain->body[b].name, name->text))
+    for (size_t b = 0; b < system->chain->bodies; b++)
+        if (!strcmp(system->chain->body[b].name, name->text))
             return nh_deck_fail(r->deck, name, 0, r->error, "`%s` is the name of a body already", name->text);
     if (!place_of_point(r, item, &p)) return false;
     in_ground(r, &p, position);
     for (int i = 0; i < 3; i++) {
         nh_deck_node component = *name;
-        component.text = nh_arena_printf(s->arena, "%s_%s", name->text, letters[i]);
+        component.text = nh_arena_printf(system->arena, "%s_%s", name->text, letters[i]);
         if (!nh_system_new_name(r, &component)) return false;
-        const char *text = as_equation(s, component.text, position[i]);
-        s->definition[s->definitions] = s->framed_definition[s->definitions] =
+        const char *text = as_equation(system, component.text, position[i]);
+        system->definition[system->definitions] = system->framed_definition[system->definitions] =
             (nh_named){.name = component.text, .text = text, .value = position[i]};
-        s->definitions++;
+        system->definitions++;
     }
     return true;
 }
@@ -249,13 +249,14 @@ static nh_ex displacement(reader *r, const along *a) { return a->distance ? nh_s
 static bool coincide_at_zero(reader *r, const along *a)
 {
     static const double none = 1e-24; /* the square of a length by rounding */
-    nh_system *s = r->system;
-    nh_ex *from = nh_system_take(r, 2 * (s->coordinates + 1), sizeof *from), *to = from + s->coordinates + 1;
+    nh_system *system = r->system;
+    nh_ex *from = nh_system_take(r, 2 * (system->coordinates + 1), sizeof *from), *to = from + system->coordinates + 1;
     if (!a->distance) return false;
-    from[s->coordinates] = s->t;
-    for (size_t i = 0; i < s->coordinates; i++) from[i] = s->coordinate[i].q;
-    for (size_t i = 0; i <= s->coordinates; i++) to[i] = nh_int(s->dag, 0);
-    return fabs(nh_system_number(s, nh_substitute(s->dag, a->square, s->coordinates + 1, from, to))) < none;
+    from[system->coordinates] = system->t;
+    for (size_t i = 0; i < system->coordinates; i++) from[i] = system->coordinate[i].q;
+    for (size_t i = 0; i <= system->coordinates; i++) to[i] = nh_int(system->dag, 0);
+    return fabs(nh_system_number(system, nh_substitute(system->dag, a->square, system->coordinates + 1, from, to))) <
+           none;
 }
 
 /* An element between two points acts along their line, which has no direction where they coincide. */
@@ -296,8 +297,8 @@ static bool read_spring(reader *r, const nh_deck_node *item)
 {
     static const char *const of_joint[] = {"joint", "coordinate", "stiffness", "rest", "name", "doc"},
                              *const of_points[] = {"between", "stiffness", "length", "name", "doc"};
-    nh_system *s = r->system;
-    nh_dag *d = s->dag;
+    nh_system *system = r->system;
+    nh_dag *d = system->dag;
     along a;
     nh_ex k, rest = nh_int(d, 0), square;
     if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "a spring {joint: ..., stiffness: ...}", r->error)) return false;
@@ -317,16 +318,17 @@ static bool read_spring(reader *r, const nh_deck_node *item)
     else square = nh_powi(d, nh_sub(d, displacement(r, &a), rest), 2);
     if (a.distance && !nh_is_zero(d, rest)) note_if_singular(r, &a, "spring", "; with length: 0 it vanishes there");
     nh_ex energy = nh_mul(d, nh_ratio(d, 1, 2), nh_mul(d, k, square));
-    s->lagrangian = s->framed_of = nh_sub(d, s->lagrangian, energy);
-    if (s->orientations) s->framed = nh_sub(d, s->framed, energy);
+    system->lagrangian = system->framed_of = nh_sub(d, system->lagrangian, energy);
+    if (system->orientations) system->framed = nh_sub(d, system->framed, energy);
     return true;
 }
 
-static nh_ex rate(const nh_system *s, nh_ex e)
+static nh_ex rate(const nh_system *system, nh_ex e)
 {
-    nh_ex sum = nh_diff(s->dag, e, s->t);
-    for (size_t i = 0; i < s->coordinates; i++)
-        sum = nh_add(s->dag, sum, nh_mul(s->dag, nh_diff(s->dag, e, s->coordinate[i].q), s->coordinate[i].v));
+    nh_ex sum = nh_diff(system->dag, e, system->t);
+    for (size_t i = 0; i < system->coordinates; i++)
+        sum = nh_add(system->dag, sum,
+                     nh_mul(system->dag, nh_diff(system->dag, e, system->coordinate[i].q), system->coordinate[i].v));
     return sum;
 }
 
@@ -372,24 +374,24 @@ static bool read_components(reader *r, const nh_deck_node *item, const nh_deck_n
 
 static void push(reader *r, size_t i, nh_ex force)
 {
-    nh_system *s = r->system;
-    if (nh_is_zero(s->dag, force)) return;
-    s->force[i] = nh_add(s->dag, s->force[i], force);
-    s->has_forces = true;
+    nh_system *system = r->system;
+    if (nh_is_zero(system->dag, force)) return;
+    system->force[i] = nh_add(system->dag, system->force[i], force);
+    system->has_forces = true;
 }
 
 /* {point: hand, force: [a, b, c]} */
 static bool read_point_force(reader *r, const nh_deck_node *item)
 {
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     const nh_deck_node *force = nh_deck_get(item, "force");
     place p;
     nh_ex F[3], position[3], slope[3];
     if (!read_place(r, nh_deck_get(item, "point"), &p) || !read_components(r, item, force, F)) return false;
     in_ground(r, &p, position);
-    for (size_t i = 0; i < s->coordinates; i++) {
-        for (int k = 0; k < 3; k++) slope[k] = nh_diff(s->dag, position[k], s->coordinate[i].q);
-        push(r, i, nh_dot(s->dag, F, slope));
+    for (size_t i = 0; i < system->coordinates; i++) {
+        for (int k = 0; k < 3; k++) slope[k] = nh_diff(system->dag, position[k], system->coordinate[i].q);
+        push(r, i, nh_dot(system->dag, F, slope));
     }
     return true;
 }
@@ -397,7 +399,7 @@ static bool read_point_force(reader *r, const nh_deck_node *item)
 /* {body: hull, torque: [a, b, c]} */
 static bool read_torque(reader *r, const nh_deck_node *item)
 {
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     const nh_deck_node *torque = nh_deck_get(item, "torque");
     nh_pose pose;
     nh_twist twist;
@@ -411,11 +413,11 @@ static bool read_torque(reader *r, const nh_deck_node *item)
         return nh_error_hint(r->error, "for example torque: [0, 0, u]");
     }
     if (!read_components(r, item, torque, T)) return false;
-    nh_chain_frame(s->chain, s->dag, body, 0, &pose, &twist);
-    nh_rotate(s->dag, s->chain->body[body].pose.R, true, T, T);
-    for (size_t i = 0; i < s->coordinates; i++) {
-        for (int k = 0; k < 3; k++) slope[k] = nh_diff(s->dag, twist.w[k], s->coordinate[i].v);
-        push(r, i, nh_dot(s->dag, T, slope));
+    nh_chain_frame(system->chain, system->dag, body, 0, &pose, &twist);
+    nh_rotate(system->dag, system->chain->body[body].pose.R, true, T, T);
+    for (size_t i = 0; i < system->coordinates; i++) {
+        for (int k = 0; k < 3; k++) slope[k] = nh_diff(system->dag, twist.w[k], system->coordinate[i].v);
+        push(r, i, nh_dot(system->dag, T, slope));
     }
     return true;
 }
@@ -425,7 +427,7 @@ static bool read_actuator(reader *r, const nh_deck_node *item)
     static const char *const of_joint[] = {"joint", "coordinate", "between", "force", "name", "doc"},
                              *const of_point[] = {"point", "force", "in", "name", "doc"},
                              *const of_body[] = {"body", "torque", "in", "name", "doc"};
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     along a;
     nh_ex u, d;
     if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "an actuator {joint: ..., force: ...}", r->error)) return false;
@@ -444,10 +446,12 @@ static bool read_actuator(reader *r, const nh_deck_node *item)
     note_if_singular(r, &a, "actuator", "");
     d = displacement(r, &a);
     bool moves = false;
-    for (size_t i = 0; i < s->coordinates; i++) moves |= !nh_is_zero(s->dag, nh_diff(s->dag, d, s->coordinate[i].q));
+    for (size_t i = 0; i < system->coordinates; i++)
+        moves |= !nh_is_zero(system->dag, nh_diff(system->dag, d, system->coordinate[i].q));
     if (!moves)
         return nh_deck_fail(r->deck, item, 0, r->error, "no coordinate moves this joint: a force cannot act on it");
-    for (size_t i = 0; i < s->coordinates; i++) push(r, i, nh_mul(s->dag, u, nh_diff(s->dag, d, s->coordinate[i].q)));
+    for (size_t i = 0; i < system->coordinates; i++)
+        push(r, i, nh_mul(system->dag, u, nh_diff(system->dag, d, system->coordinate[i].q)));
     return true;
 }
 
@@ -455,27 +459,28 @@ static bool read_actuator(reader *r, const nh_deck_node *item)
 static bool read_dissipation(reader *r)
 {
     const nh_deck_node *node = nh_deck_get(r->root, "dissipation");
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     bool moves = false;
     if (!node) return true;
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the dissipation", r->error) ||
-        !nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, &r->dissipation, r->error))
+        !nh_system_read_expression(system, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, &r->dissipation, r->error))
         return false;
-    for (size_t i = 0; i < s->coordinates; i++) moves |= nh_depends(s->dag, r->dissipation, s->coordinate[i].v);
-    if (moves || nh_is_zero(s->dag, r->dissipation)) return true;
+    for (size_t i = 0; i < system->coordinates; i++)
+        moves |= nh_depends(system->dag, r->dissipation, system->coordinate[i].v);
+    if (moves || nh_is_zero(system->dag, r->dissipation)) return true;
     nh_deck_fail(r->deck, node, 0, r->error, "this dissipation contains no velocity: it gives no force");
-    return nh_error_hint(r->error, "for example dissipation: c/2*%s'^2, with the force -c*%s'", s->coordinate[0].name,
-                         s->coordinate[0].name);
+    return nh_error_hint(r->error, "for example dissipation: c/2*%s'^2, with the force -c*%s'",
+                         system->coordinate[0].name, system->coordinate[0].name);
 }
 
 bool nh_system_read_elements(reader *r)
 {
     static const char *const keys[] = {"springs", "dampers", "actuators"};
     static bool (*const read[])(reader *, const nh_deck_node *) = {read_spring, read_damper, read_actuator};
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     const nh_deck_node *list[3];
     size_t count[3];
-    r->dissipation = nh_int(s->dag, 0);
+    r->dissipation = nh_int(system->dag, 0);
     for (int k = 0; k < 3; k++)
         if (!nh_system_list_of(r, r->root, keys[k], &list[k], &count[k])) return false;
     r->note = nh_system_take(r, count[0] + count[1] + count[2], sizeof *r->note);
@@ -483,7 +488,7 @@ bool nh_system_read_elements(reader *r)
     for (int k = 0; k < 3; k++)
         for (size_t i = 0; i < count[k]; i++)
             if (!read[k](r, list[k]->item[i])) return false;
-    for (size_t i = 0; i < s->coordinates; i++)
-        push(r, i, nh_neg(s->dag, nh_diff(s->dag, r->dissipation, s->coordinate[i].v)));
+    for (size_t i = 0; i < system->coordinates; i++)
+        push(r, i, nh_neg(system->dag, nh_diff(system->dag, r->dissipation, system->coordinate[i].v)));
     return true;
 }

@@ -70,18 +70,18 @@ static bool next_subset(size_t k, size_t m, size_t *subset)
  * dependent. */
 static bool written_explicitly(const nh_constraint_samples *c, size_t *out)
 {
-    const nh_system *s = c->system;
+    const nh_system *system = c->system;
     for (size_t a = 0; a < c->k; a++) {
         out[a] = c->m;
         for (size_t i = 0; i < c->m; i++)
-            if (s->constraint[a].lhs == s->coordinate[i].v) out[a] = i;
+            if (system->constraint[a].lhs == system->coordinate[i].v) out[a] = i;
         if (out[a] == c->m) return false;
         for (size_t b = 0; b < a; b++)
             if (out[b] == out[a]) return false;
     }
     for (size_t a = 0; a < c->k; a++)
         for (size_t b = 0; b < c->k; b++)
-            if (nh_depends(s->dag, s->constraint[a].rhs, s->coordinate[out[b]].v)) return false;
+            if (nh_depends(system->dag, system->constraint[a].rhs, system->coordinate[out[b]].v)) return false;
     return true;
 }
 
@@ -185,11 +185,11 @@ static void copy_probes(nh_chart *chart, const nh_constraint_samples *c)
 /* Linear in the dependent velocities: v_dep = -G^-1 f(v_dep = 0), G = df/dv_dep. */
 static bool solve_linear(nh_chart *chart, const nh_constraint_samples *c, const nh_ex *G, const nh_ex *f)
 {
-    const nh_system *s = c->system;
-    nh_dag *d = s->dag;
+    const nh_system *system = c->system;
+    nh_dag *d = system->dag;
     nh_ex *zero = nh_alloc_array(c->k + 1, sizeof *zero), *u = nh_alloc_array(c->k + 1, sizeof *u),
           *b = nh_alloc_array(c->k + 1, sizeof *b);
-    for (size_t a = 0; a < c->k; a++) u[a] = s->coordinate[chart->dependent[a]].v;
+    for (size_t a = 0; a < c->k; a++) u[a] = system->coordinate[chart->dependent[a]].v;
     for (size_t a = 0; a < c->k; a++) b[a] = nh_neg(d, nh_substitute(d, f[a], c->k, u, zero));
     nh_lu *lu = nh_lu_create(d, c->k, G, nh_embedding_score_at_start, chart, NULL);
     if (lu) nh_lu_solve(lu, b, b);
@@ -244,8 +244,8 @@ static void relate_implicit(nh_chart *chart, size_t k, const nh_ex *f)
 /* Nonlinear: k dependent velocities stay, as implicit symbols with du/dz = -G^-1 df/dz. */
 static bool keep_implicit(nh_chart *chart, const nh_constraint_samples *c, size_t k, const nh_ex *G, const nh_ex *f)
 {
-    const nh_system *s = c->system;
-    nh_dag *d = s->dag;
+    const nh_system *system = c->system;
+    nh_dag *d = system->dag;
     relate_implicit(chart, k, f);
     size_t explicit_width = chart->width - k;
     nh_lu *lu = nh_lu_create(d, k, G, nh_embedding_score, chart, NULL);
@@ -266,8 +266,8 @@ static bool keep_implicit(nh_chart *chart, const nh_constraint_samples *c, size_
     }
     const nh_ex *symbols;
     const double *values;
-    nh_system_bindings(s, &symbols, &values);
-    chart->newton = nh_tape_create(d, chart->width, chart->symbol, k + k * k, out, s->parameters, symbols, values);
+    nh_system_bindings(system, &symbols, &values);
+    chart->newton = nh_tape_create(d, chart->width, chart->symbol, k + k * k, out, system->parameters, symbols, values);
     nh_free(out);
     return true;
 }
@@ -275,18 +275,18 @@ static bool keep_implicit(nh_chart *chart, const nh_constraint_samples *c, size_
 /* The branch that most points of the domain lie on, counting those in the user's range for u: the sign of 2 a u + b. */
 static int branch_of(const nh_constraint_samples *c, size_t which, nh_ex linear)
 {
-    const nh_system *s = c->system;
+    const nh_system *system = c->system;
     const nh_ex *symbols;
     const double *values;
     double low, high, slope;
     long balance = 0;
-    if (s->branch) return s->branch;
+    if (system->branch) return system->branch;
     nh_ex *in = nh_alloc_array(c->width, sizeof *in);
-    in[0] = s->t;
-    for (size_t i = 0; i < c->m; i++) in[1 + i] = s->coordinate[i].q, in[1 + c->m + i] = s->coordinate[i].v;
-    nh_system_bindings(s, &symbols, &values);
-    nh_domain_range(s, s->coordinate[which].v, &low, &high);
-    nh_tape *tape = nh_tape_create(s->dag, c->width, in, 1, &linear, s->parameters, symbols, values);
+    in[0] = system->t;
+    for (size_t i = 0; i < c->m; i++) in[1 + i] = system->coordinate[i].q, in[1 + c->m + i] = system->coordinate[i].v;
+    nh_system_bindings(system, &symbols, &values);
+    nh_domain_range(system, system->coordinate[which].v, &low, &high);
+    nh_tape *tape = nh_tape_create(system->dag, c->width, in, 1, &linear, system->parameters, symbols, values);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t p = 0; p < c->count; p++) {
         const double *z = c->point + p * c->width;
@@ -304,9 +304,9 @@ static int branch_of(const nh_constraint_samples *c, size_t which, nh_ex linear)
    follows is explicit. */
 static bool quadratic_root(const nh_constraint_samples *sample, size_t which, nh_ex f, nh_quadratic *q)
 {
-    const nh_system *s = sample->system;
-    nh_dag *d = s->dag;
-    nh_ex u = s->coordinate[which].v, zero = nh_int(d, 0), slope = nh_diff(d, f, u);
+    const nh_system *system = sample->system;
+    nh_dag *d = system->dag;
+    nh_ex u = system->coordinate[which].v, zero = nh_int(d, 0), slope = nh_diff(d, f, u);
     q->a = nh_simplify(d, nh_mul(d, nh_ratio(d, 1, 2), nh_diff(d, slope, u)));
     if (nh_depends(d, q->a, u) || nh_is_zero(d, q->a)) return false;
     q->b = nh_simplify(d, nh_substitute(d, slope, 1, &u, &zero));
@@ -329,10 +329,10 @@ typedef struct {
 
 static bool contains_only_parameters(const nh_constraint_samples *c, nh_ex e)
 {
-    const nh_system *s = c->system;
-    bool only = !nh_depends(s->dag, e, s->t);
-    for (const nh_coordinate *at = s->coordinate; at < s->coordinate + c->m && only; at++)
-        only = !nh_depends(s->dag, e, at->q) && !nh_depends(s->dag, e, at->v);
+    const nh_system *system = c->system;
+    bool only = !nh_depends(system->dag, e, system->t);
+    for (const nh_coordinate *at = system->coordinate; at < system->coordinate + c->m && only; at++)
+        only = !nh_depends(system->dag, e, at->q) && !nh_depends(system->dag, e, at->v);
     return only;
 }
 
@@ -340,12 +340,12 @@ static bool contains_only_parameters(const nh_constraint_samples *c, nh_ex e)
  * depends on the rest. */
 static bool solve_one(const nh_constraint_samples *c, triangle *t)
 {
-    const nh_system *s = c->system;
-    nh_dag *d = s->dag;
+    const nh_system *system = c->system;
+    nh_dag *d = system->dag;
     nh_ex zero = nh_int(d, 0);
     for (size_t a = 0; a < t->left; a++)
         for (size_t i = 0; i < t->left; i++) {
-            nh_ex u = s->coordinate[t->dependent[i]].v, slope = nh_simplify(d, nh_diff(d, t->f[a], u));
+            nh_ex u = system->coordinate[t->dependent[i]].v, slope = nh_simplify(d, nh_diff(d, t->f[a], u));
             if (nh_is_zero(d, slope) || !contains_only_parameters(c, slope)) continue;
             nh_ex value = nh_simplify(d, nh_neg(d, nh_div(d, nh_substitute(d, t->f[a], 1, &u, &zero), slope)));
             size_t last = --t->left, which = t->dependent[i];
@@ -373,13 +373,13 @@ static const char *chart_name(const nh_chart *chart, char *buffer, size_t size)
 /* df/dv_dep of what is left, by rows; are all its entries free of those velocities? */
 static bool slopes(const nh_constraint_samples *c, const triangle *t, nh_ex *G)
 {
-    const nh_system *s = c->system;
+    const nh_system *system = c->system;
     bool linear = true;
     for (size_t a = 0; a < t->left; a++)
         for (size_t i = 0; i < t->left; i++) {
-            G[a * t->left + i] = nh_diff(s->dag, t->f[a], s->coordinate[t->dependent[i]].v);
+            G[a * t->left + i] = nh_diff(system->dag, t->f[a], system->coordinate[t->dependent[i]].v);
             for (size_t j = 0; j < t->left; j++)
-                linear &= !nh_depends(s->dag, G[a * t->left + i], s->coordinate[t->dependent[j]].v);
+                linear &= !nh_depends(system->dag, G[a * t->left + i], system->coordinate[t->dependent[j]].v);
         }
     return linear;
 }
@@ -387,21 +387,21 @@ static bool slopes(const nh_constraint_samples *c, const triangle *t, nh_ex *G)
 /* The independent velocities are known. */
 static nh_chart *chart_of(const nh_constraint_samples *c, const triangle *t, size_t implicit, double pivot)
 {
-    nh_system *s = c->system;
-    nh_chart *chart = nh_embedding_new(s, "", c->m - c->k, implicit);
+    nh_system *system = c->system;
+    nh_chart *chart = nh_embedding_new(system, "", c->m - c->k, implicit);
     char buffer[400];
     size_t n = 0;
     memcpy(chart->dependent, t->dependent, c->k * sizeof *t->dependent);
     chart->pivot = pivot;
     for (size_t i = 0; i < c->m; i++) {
-        chart->rho[i] = s->coordinate[i].v;
+        chart->rho[i] = system->coordinate[i].v;
         if (is_dependent(t->dependent, c->k, i)) continue;
         chart->free[n] = i;
-        chart->w[n++] = s->coordinate[i].v;
+        chart->w[n++] = system->coordinate[i].v;
     }
     for (size_t a = 0; a < implicit; a++) {
         size_t i = t->dependent[a];
-        chart->rho[i] = chart->u[a] = nh_symbol_fresh(s->dag, nh_name_of(s->dag, s->coordinate[i].v));
+        chart->rho[i] = chart->u[a] = nh_symbol_fresh(system->dag, nh_name_of(system->dag, system->coordinate[i].v));
     }
     nh_embedding_symbols(chart);
     copy_probes(chart, c);
@@ -412,12 +412,12 @@ static nh_chart *chart_of(const nh_constraint_samples *c, const triangle *t, siz
 /* Writes the velocities that were solved before in terms of the remaining ones. */
 static void put_solved(nh_chart *chart, const triangle *t)
 {
-    const nh_system *s = chart->system;
+    const nh_system *system = chart->system;
     for (size_t a = t->left; a < t->k; a++) {
         nh_ex e = t->f[a];
         for (size_t i = 0; i < t->left; i++)
-            e = nh_substitute(s->dag, e, 1, &s->coordinate[t->dependent[i]].v, &chart->rho[t->dependent[i]]);
-        chart->rho[t->dependent[a]] = nh_simplify(s->dag, e);
+            e = nh_substitute(system->dag, e, 1, &system->coordinate[t->dependent[i]].v, &chart->rho[t->dependent[i]]);
+        chart->rho[t->dependent[a]] = nh_simplify(system->dag, e);
     }
 }
 
@@ -450,17 +450,17 @@ static nh_chart *solved(const nh_constraint_samples *c, triangle *t, nh_ex *G, d
 
 static nh_chart *build(const nh_constraint_samples *c, const size_t *dependent, double pivot, nh_error *error)
 {
-    nh_system *s = c->system;
+    nh_system *system = c->system;
     const size_t k = c->k;
     nh_ex *f = nh_alloc_array(k + k * k + 1, sizeof *f);
     triangle t = {.k = k, .left = k, .f = f, .dependent = nh_alloc_array(k + 1, sizeof *t.dependent)};
     memcpy(t.dependent, dependent, k * sizeof *dependent);
-    for (size_t a = 0; a < k; a++) f[a] = nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs);
+    for (size_t a = 0; a < k; a++) f[a] = nh_sub(system->dag, system->constraint[a].lhs, system->constraint[a].rhs);
     nh_chart *chart = solved(c, &t, f + k, pivot);
     nh_free(t.dependent);
     nh_free(f);
     if (chart) return chart;
-    nh_deck_fail(s->deck, s->constraint[0].node, 0, error,
+    nh_deck_fail(system->deck, system->constraint[0].node, 0, error,
                  "the constraints cannot be solved for the chosen dependent velocities");
     nh_error_hint(error, "name other velocities under `dependent:`, or remove that key");
     return NULL;

@@ -27,19 +27,19 @@ enum { probe_count = 24, newton_steps = 40 };
 
 /* ---- the parts that both kinds of chart share ---- */
 
-nh_chart *nh_embedding_new(nh_system *s, const char *name, size_t n, size_t implicit)
+nh_chart *nh_embedding_new(nh_system *system, const char *name, size_t n, size_t implicit)
 {
     nh_arena *arena = nh_arena_create();
     nh_chart *c = nh_arena_alloc(arena, sizeof *c);
-    size_t m = s->coordinates, width = 1 + m + n + implicit;
-    *c = (nh_chart){.system = s, .arena = arena, .n = n, .implicit = implicit, .width = width, .pivot = 1};
+    size_t m = system->coordinates, width = 1 + m + n + implicit;
+    *c = (nh_chart){.system = system, .arena = arena, .n = n, .implicit = implicit, .width = width, .pivot = 1};
     c->name = nh_arena_strdup(arena, name);
     c->w = nh_arena_alloc(arena, (n + 1) * sizeof *c->w);
     c->rho = nh_arena_alloc(arena, (m + 1) * sizeof *c->rho);
     c->u = nh_arena_alloc(arena, (implicit + 1) * sizeof *c->u);
     c->residual = nh_arena_alloc(arena, (implicit + 1) * sizeof *c->residual);
-    c->dependent = nh_arena_alloc(arena, (s->constraints + 1) * sizeof *c->dependent);
-    c->root_of = nh_arena_alloc(arena, (s->constraints + 1) * sizeof *c->root_of);
+    c->dependent = nh_arena_alloc(arena, (system->constraints + 1) * sizeof *c->dependent);
+    c->root_of = nh_arena_alloc(arena, (system->constraints + 1) * sizeof *c->root_of);
     c->free = nh_arena_alloc(arena, (n + 1) * sizeof *c->free);
     c->symbol = nh_arena_alloc(arena, width * sizeof *c->symbol);
     c->low = nh_arena_alloc(arena, width * sizeof *c->low);
@@ -50,13 +50,13 @@ nh_chart *nh_embedding_new(nh_system *s, const char *name, size_t n, size_t impl
 
 void nh_embedding_symbols(nh_chart *c)
 {
-    const nh_system *s = c->system;
+    const nh_system *system = c->system;
     size_t k = 0;
-    c->symbol[k++] = s->t;
-    for (size_t i = 0; i < s->coordinates; i++) c->symbol[k++] = s->coordinate[i].q;
+    c->symbol[k++] = system->t;
+    for (size_t i = 0; i < system->coordinates; i++) c->symbol[k++] = system->coordinate[i].q;
     for (size_t i = 0; i < c->n; i++) c->symbol[k++] = c->w[i];
     for (size_t i = 0; i < c->implicit; i++) c->symbol[k++] = c->u[i];
-    for (size_t i = 0; i < c->width; i++) nh_domain_range(s, c->symbol[i], &c->low[i], &c->high[i]);
+    for (size_t i = 0; i < c->width; i++) nh_domain_range(system, c->symbol[i], &c->low[i], &c->high[i]);
 }
 
 void nh_chart_range(const nh_chart *c, nh_ex symbol, double *low, double *high)
@@ -64,25 +64,29 @@ void nh_chart_range(const nh_chart *c, nh_ex symbol, double *low, double *high)
     nh_domain_range(c->system, symbol, low, high);
 }
 
-double nh_chart_symbol_unit(const nh_system *s, nh_ex symbol)
+double nh_chart_symbol_unit(const nh_system *system, nh_ex symbol)
 {
     double unit = 1;
-    for (size_t k = 0; k < s->intervals; k++)
-        if (s->interval[k].symbol == symbol) unit = (s->interval[k].high - s->interval[k].low) / 2;
+    for (size_t k = 0; k < system->intervals; k++)
+        if (system->interval[k].symbol == symbol) unit = (system->interval[k].high - system->interval[k].low) / 2;
     return unit > 0 && isfinite(unit) ? unit : 1;
 }
 
-double nh_chart_unit(const nh_system *s, size_t i) { return nh_chart_symbol_unit(s, s->coordinate[i].q); }
+double nh_chart_unit(const nh_system *system, size_t i)
+{
+    return nh_chart_symbol_unit(system, system->coordinate[i].q);
+}
 
 void nh_chart_slopes(const nh_chart *c, double *factor)
 {
-    const nh_system *s = c->system;
-    size_t m = s->coordinates;
+    const nh_system *system = c->system;
+    size_t m = system->coordinates;
     for (size_t j = 0; j < c->n; j++) {
         size_t own = m;
         for (size_t i = 0; i < m && !c->quasi; i++)
-            if (c->w[j] == s->coordinate[i].v) own = i;
-        for (size_t i = 0; i < m; i++) factor[i * c->n + j] = own < m ? nh_chart_unit(s, own) / nh_chart_unit(s, i) : 1;
+            if (c->w[j] == system->coordinate[i].v) own = i;
+        for (size_t i = 0; i < m; i++)
+            factor[i * c->n + j] = own < m ? nh_chart_unit(system, own) / nh_chart_unit(system, i) : 1;
     }
 }
 
@@ -95,10 +99,10 @@ void nh_chart_free(nh_chart *chart)
 
 nh_ex nh_chart_compose(const nh_chart *c, nh_ex e)
 {
-    const nh_system *s = c->system;
-    nh_ex *v = nh_alloc_array(s->coordinates + 1, sizeof *v);
-    for (size_t i = 0; i < s->coordinates; i++) v[i] = s->coordinate[i].v;
-    e = nh_substitute(s->dag, e, s->coordinates, v, c->rho);
+    const nh_system *system = c->system;
+    nh_ex *v = nh_alloc_array(system->coordinates + 1, sizeof *v);
+    for (size_t i = 0; i < system->coordinates; i++) v[i] = system->coordinate[i].v;
+    e = nh_substitute(system->dag, e, system->coordinates, v, c->rho);
     nh_free(v);
     return e;
 }
@@ -141,14 +145,15 @@ bool nh_chart_complete(const nh_chart *c, double *z)
 
 static const double rounding = 1e-13;
 
-bool nh_embedding_vanishes(const nh_system *s, size_t width, const nh_ex *symbol, size_t points, const double *point,
-                           nh_ex e)
+bool nh_embedding_vanishes(const nh_system *system, size_t width, const nh_ex *symbol, size_t points,
+                           const double *point, nh_ex e)
 {
     enum { bits = 512, tried = 3, digits = 100 };
-    nh_ball *ball = nh_ball_create(s->dag, bits);
+    nh_ball *ball = nh_ball_create(system->dag, bits);
     bool zero = true;
-    for (size_t i = 0; i < s->parameters; i++)
-        nh_ball_set_expression(ball, s->parameter[i].symbol, nh_number(s->dag, nh_num_decimal(s->parameter[i].value)));
+    for (size_t i = 0; i < system->parameters; i++)
+        nh_ball_set_expression(ball, system->parameter[i].symbol,
+                               nh_number(system->dag, nh_num_decimal(system->parameter[i].value)));
     for (size_t p = 0; p < points && p < tried && zero; p++) {
         double size;
         for (size_t j = 0; j < width; j++) nh_ball_set_double(ball, symbol[j], point[p * width + j]);
@@ -190,19 +195,20 @@ double nh_embedding_score_at_start(void *context, nh_ex e)
 {
     static const double last_choice = 1e-6;
     const nh_chart *c = context;
-    const nh_system *s = c->system;
+    const nh_system *system = c->system;
     double least = nh_embedding_score(context, e), value = 0, size = 0;
-    if (!s->start || least == 0) return least;
+    if (!system->start || least == 0) return least;
     const nh_ex *symbols;
     const double *values;
-    nh_ex *in = nh_alloc_array(1 + 2 * s->coordinates, sizeof *in);
-    in[0] = s->t;
-    for (size_t i = 0; i < s->coordinates; i++)
-        in[1 + i] = s->coordinate[i].q, in[1 + s->coordinates + i] = s->coordinate[i].v;
-    nh_system_bindings(s, &symbols, &values);
-    nh_tape *tape = nh_tape_create(s->dag, 1 + 2 * s->coordinates, in, 1, &e, s->parameters, symbols, values);
+    nh_ex *in = nh_alloc_array(1 + 2 * system->coordinates, sizeof *in);
+    in[0] = system->t;
+    for (size_t i = 0; i < system->coordinates; i++)
+        in[1 + i] = system->coordinate[i].q, in[1 + system->coordinates + i] = system->coordinate[i].v;
+    nh_system_bindings(system, &symbols, &values);
+    nh_tape *tape =
+        nh_tape_create(system->dag, 1 + 2 * system->coordinates, in, 1, &e, system->parameters, symbols, values);
     nh_tape_work *work = nh_tape_work_create(tape);
-    nh_tape_eval(tape, work, s->start, &value);
+    nh_tape_eval(tape, work, system->start, &value);
     nh_tape_work_free(work);
     nh_tape_free(tape);
     nh_free(in);
@@ -225,19 +231,19 @@ static void probes_of_quasi(nh_chart *c, uint64_t seed)
  * image of the chart. */
 static double off_constraint(const nh_chart *c, size_t a, nh_ex f)
 {
-    const nh_system *s = c->system;
-    nh_dag *d = s->dag;
+    const nh_system *system = c->system;
+    nh_dag *d = system->dag;
     const nh_ex *symbols;
     const double *values;
-    nh_system_bindings(s, &symbols, &values);
+    nh_system_bindings(system, &symbols, &values);
     nh_ex out[2] = {f, nh_int(d, 0)}, rest = f;
-    for (size_t j = 0; j < s->coordinates; j++) {
-        nh_ex slope = nh_chart_compose(c, nh_diff(d, nh_chart_constraint(c, a), s->coordinate[j].v));
+    for (size_t j = 0; j < system->coordinates; j++) {
+        nh_ex slope = nh_chart_compose(c, nh_diff(d, nh_chart_constraint(c, a), system->coordinate[j].v));
         rest = nh_sub(d, rest, nh_mul(d, slope, c->rho[j]));
         out[1] = nh_add(d, out[1], nh_call(d, NH_ABS, nh_mul(d, slope, c->rho[j])));
     }
     out[1] = nh_add(d, out[1], nh_call(d, NH_ABS, rest));
-    nh_tape *tape = nh_tape_create(d, c->width, c->symbol, 2, out, s->parameters, symbols, values);
+    nh_tape *tape = nh_tape_create(d, c->width, c->symbol, 2, out, system->parameters, symbols, values);
     nh_tape_work *work = nh_tape_work_create(tape);
     double worst = 0, value[2];
     for (size_t i = 0; i < c->probes; i++) {
@@ -253,14 +259,14 @@ static double off_constraint(const nh_chart *c, size_t a, nh_ex f)
 static bool chart_satisfies(const nh_chart *c, nh_error *error)
 {
     static const double allowed = 1e-10;
-    const nh_system *s = c->system;
-    for (size_t a = 0; a < s->constraints; a++) {
+    const nh_system *system = c->system;
+    for (size_t a = 0; a < system->constraints; a++) {
         nh_ex f = nh_chart_compose(c, nh_chart_constraint(c, a));
-        if (nh_normal_is_zero(s->dag, f, 0) == NH_ZERO) continue;
+        if (nh_normal_is_zero(system->dag, f, 0) == NH_ZERO) continue;
         double worst = off_constraint(c, a, f);
         if (worst < allowed) continue;
         nh_deck_fail(
-            s->deck, s->constraint[a].node, 0, error,
+            system->deck, system->constraint[a].node, 0, error,
             "the velocities' map does not satisfy this constraint (off by %.2g of its terms at a sample point)", worst);
         return nh_error_hint(error, "substitute the map into the constraint: it must vanish for all quasi-velocities");
     }
@@ -359,23 +365,24 @@ static bool velocities_independent(const nh_chart *c, nh_error *error)
     return nh_error_hint(error, "the quasi-velocities must be independent: each must add a direction of motion");
 }
 
-static nh_chart *quasi_chart(nh_system *s, uint64_t seed, nh_error *error)
+static nh_chart *quasi_chart(nh_system *system, uint64_t seed, nh_error *error)
 {
     nh_text name;
     nh_text_init(&name);
     nh_text_add(&name, "quasi-velocities (");
-    for (size_t i = 0; i < s->quasi; i++)
-        nh_text_addf(&name, "%s%s", i ? ", " : "", nh_name_of(s->dag, s->quasi_velocity[i]));
+    for (size_t i = 0; i < system->quasi; i++)
+        nh_text_addf(&name, "%s%s", i ? ", " : "", nh_name_of(system->dag, system->quasi_velocity[i]));
     nh_text_add(&name, ")");
-    nh_chart *c = nh_embedding_new(s, nh_text_string(&name), s->quasi, 0);
+    nh_chart *c = nh_embedding_new(system, nh_text_string(&name), system->quasi, 0);
     nh_text_clear(&name);
     c->quasi = true;
-    memcpy(c->w, s->quasi_velocity, s->quasi * sizeof *c->w);
-    memcpy(c->rho, s->quasi_map, s->coordinates * sizeof *c->rho);
-    c->framed = s->quasi_framed;
+    memcpy(c->w, system->quasi_velocity, system->quasi * sizeof *c->w);
+    memcpy(c->rho, system->quasi_map, system->coordinates * sizeof *c->rho);
+    c->framed = system->quasi_framed;
     nh_embedding_symbols(c);
     probes_of_quasi(c, seed);
-    if (nh_embedding_ranks(s, seed, error) && chart_satisfies(c, error) && velocities_independent(c, error)) return c;
+    if (nh_embedding_ranks(system, seed, error) && chart_satisfies(c, error) && velocities_independent(c, error))
+        return c;
     nh_chart_free(c);
     return NULL;
 }
@@ -400,15 +407,15 @@ nh_chart *nh_chart_create(nh_system *system, nh_chart_choice choice, uint64_t se
  * used.  Cyclic ones are used last. */
 static void choose_rows(const nh_chart *c, const nh_ex *R, bool *used)
 {
-    const nh_system *s = c->system;
-    size_t found = 0, m = s->coordinates;
+    const nh_system *system = c->system;
+    size_t found = 0, m = system->coordinates;
     for (size_t k = 0; k < m; k++) used[k] = false;
-    for (size_t i = 0; i < c->n && s->levels; i++) {
+    for (size_t i = 0; i < c->n && system->levels; i++) {
         size_t best = m;
         for (size_t k = 0; k < m; k++) {
-            bool own = !nh_is_zero(s->dag, R[k * c->n + i]);
-            for (size_t j = 0; j < c->n && own; j++) own = j == i || nh_is_zero(s->dag, R[k * c->n + j]);
-            if (own && (best == m || nh_depends(s->dag, s->lagrangian, s->coordinate[k].q))) best = k;
+            bool own = !nh_is_zero(system->dag, R[k * c->n + i]);
+            for (size_t j = 0; j < c->n && own; j++) own = j == i || nh_is_zero(system->dag, R[k * c->n + j]);
+            if (own && (best == m || nh_depends(system->dag, system->lagrangian, system->coordinate[k].q))) best = k;
         }
         if (best < m) used[best] = true, found++;
     }
@@ -418,13 +425,13 @@ static void choose_rows(const nh_chart *c, const nh_ex *R, bool *used)
 /* Where each velocity of the chart is a rate along the frame. */
 static bool inverse_along_frame(const nh_chart *c, nh_ex *out)
 {
-    const nh_system *s = c->system;
+    const nh_system *system = c->system;
     size_t found = 0;
     for (size_t i = 0; i < c->n && c->framed; i++)
-        for (size_t a = 0; a < s->coordinates; a++) {
+        for (size_t a = 0; a < system->coordinates; a++) {
             if (c->framed[a] != c->w[i]) continue;
-            const nh_orientation *o = nh_orientation_of(s, a);
-            out[i] = o ? o->rate[a - o->first] : s->coordinate[a].v;
+            const nh_orientation *o = nh_orientation_of(system, a);
+            out[i] = o ? o->rate[a - o->first] : system->coordinate[a].v;
             found++;
             break;
         }
@@ -433,9 +440,9 @@ static bool inverse_along_frame(const nh_chart *c, nh_ex *out)
 
 bool nh_chart_inverse(const nh_chart *c, nh_ex *out)
 {
-    const nh_system *s = c->system;
-    nh_dag *d = s->dag;
-    size_t n = c->n, m = s->coordinates;
+    const nh_system *system = c->system;
+    nh_dag *d = system->dag;
+    size_t n = c->n, m = system->coordinates;
     if (!c->quasi) {
         memcpy(out, c->w, n * sizeof *out);
         return true;
@@ -455,7 +462,7 @@ bool nh_chart_inverse(const nh_chart *c, nh_ex *out)
         for (size_t j = 0; j < n; j++) N[i * n + j] = nh_int(d, 0);
         for (size_t k = 0; k < m; k++) {
             if (!used[k]) continue;
-            nh_ex rest = nh_sub(d, s->coordinate[k].v, nh_substitute(d, c->rho[k], n, c->w, zero));
+            nh_ex rest = nh_sub(d, system->coordinate[k].v, nh_substitute(d, c->rho[k], n, c->w, zero));
             b[i] = nh_add(d, b[i], nh_mul(d, R[k * n + i], rest));
             for (size_t j = 0; j < n; j++)
                 N[i * n + j] = nh_add(d, N[i * n + j], nh_mul(d, R[k * n + i], R[k * n + j]));

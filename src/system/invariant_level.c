@@ -28,15 +28,15 @@ typedef struct {
 
 /* ---- the fields ---- */
 
-static nh_ex slope(const nh_system *s, nh_ex f, size_t i)
+static nh_ex slope(const nh_system *system, nh_ex f, size_t i)
 {
-    return nh_simplify(s->dag, nh_diff(s->dag, f, s->coordinate[i].v));
+    return nh_simplify(system->dag, nh_diff(system->dag, f, system->coordinate[i].v));
 }
 
-static bool has_coordinates(const nh_system *s, nh_ex e)
+static bool has_coordinates(const nh_system *system, nh_ex e)
 {
-    bool any = nh_depends(s->dag, e, s->t);
-    for (size_t i = 0; i < s->coordinates; i++) any |= nh_depends(s->dag, e, s->coordinate[i].q);
+    bool any = nh_depends(system->dag, e, system->t);
+    for (size_t i = 0; i < system->coordinates; i++) any |= nh_depends(system->dag, e, system->coordinate[i].q);
     return any;
 }
 
@@ -93,42 +93,44 @@ static bool restrict_to(basis *b, nh_ex f)
 /* ---- constraints ---- */
 
 /* Is f affine in the velocities, or linear? */
-static bool is_affine(const nh_system *s, nh_ex f, bool *linear)
+static bool is_affine(const nh_system *system, nh_ex f, bool *linear)
 {
-    nh_dag *d = s->dag;
+    nh_dag *d = system->dag;
     nh_ex rest = f;
-    for (size_t i = 0; i < s->coordinates; i++) {
-        nh_ex a = slope(s, f, i);
-        for (size_t j = 0; j < s->coordinates; j++)
-            if (nh_depends(d, a, s->coordinate[j].v)) return false;
-        rest = nh_sub(d, rest, nh_mul(d, a, s->coordinate[i].v));
+    for (size_t i = 0; i < system->coordinates; i++) {
+        nh_ex a = slope(system, f, i);
+        for (size_t j = 0; j < system->coordinates; j++)
+            if (nh_depends(d, a, system->coordinate[j].v)) return false;
+        rest = nh_sub(d, rest, nh_mul(d, a, system->coordinate[i].v));
     }
     *linear = nh_is_zero(d, nh_simplify(d, rest));
     return true;
 }
 
 /* Fields that the first `given` constraints allow; false: they are not linear. */
-static bool begin(basis *b, nh_system *s, size_t given)
+static bool begin(basis *b, nh_system *system, size_t given)
 {
-    nh_dag *d = s->dag;
-    size_t m = s->coordinates;
-    bool mapped = given && s->quasi, linear = true;
-    *b = (basis){.s = s, .n = mapped ? s->quasi : m};
-    b->field = nh_arena_alloc(s->arena, (m * m + 1) * sizeof *b->field);
-    b->origin = nh_arena_alloc(s->arena, (m + 1) * sizeof *b->origin);
+    nh_dag *d = system->dag;
+    size_t m = system->coordinates;
+    bool mapped = given && system->quasi, linear = true;
+    *b = (basis){.s = system, .n = mapped ? system->quasi : m};
+    b->field = nh_arena_alloc(system->arena, (m * m + 1) * sizeof *b->field);
+    b->origin = nh_arena_alloc(system->arena, (m + 1) * sizeof *b->origin);
     for (size_t i = 0; i < b->n; i++)
-        b->origin[i] = mapped ? nh_name_of(d, s->quasi_velocity[i]) : s->coordinate[i].name;
+        b->origin[i] = mapped ? nh_name_of(d, system->quasi_velocity[i]) : system->coordinate[i].name;
     for (size_t i = 0; i < b->n; i++)
         for (size_t j = 0; j < m; j++)
-            b->field[i * m + j] = mapped ? nh_diff(d, s->quasi_map[j], s->quasi_velocity[i]) : nh_int(d, i == j);
+            b->field[i * m + j] =
+                mapped ? nh_diff(d, system->quasi_map[j], system->quasi_velocity[i]) : nh_int(d, i == j);
     for (size_t j = 0; mapped && j < m && linear; j++) {
-        nh_ex rest = s->quasi_map[j];
-        for (size_t i = 0; i < b->n; i++) rest = nh_sub(d, rest, nh_mul(d, b->field[i * m + j], s->quasi_velocity[i]));
+        nh_ex rest = system->quasi_map[j];
+        for (size_t i = 0; i < b->n; i++)
+            rest = nh_sub(d, rest, nh_mul(d, b->field[i * m + j], system->quasi_velocity[i]));
         linear = nh_is_zero(d, nh_simplify(d, rest));
     }
     for (size_t a = 0; !mapped && a < given && linear; a++) {
-        nh_ex f = nh_sub(d, s->constraint[a].lhs, s->constraint[a].rhs);
-        linear = is_affine(s, f, &linear) && linear && restrict_to(b, f);
+        nh_ex f = nh_sub(d, system->constraint[a].lhs, system->constraint[a].rhs);
+        linear = is_affine(system, f, &linear) && linear && restrict_to(b, f);
     }
     return linear;
 }
@@ -145,17 +147,17 @@ static const char *name_of(const basis *b, size_t i)
 
 static void take_velocities(const basis *b)
 {
-    nh_system *s = b->s;
-    size_t m = s->coordinates;
-    s->quasi = b->n;
-    s->quasi_velocity = nh_arena_alloc(s->arena, (b->n + 1) * sizeof *s->quasi_velocity);
-    s->quasi_map = nh_arena_alloc(s->arena, (m + 1) * sizeof *s->quasi_map);
-    for (size_t i = 0; i < b->n; i++) s->quasi_velocity[i] = nh_symbol(s->dag, name_of(b, i));
+    nh_system *system = b->s;
+    size_t m = system->coordinates;
+    system->quasi = b->n;
+    system->quasi_velocity = nh_arena_alloc(system->arena, (b->n + 1) * sizeof *system->quasi_velocity);
+    system->quasi_map = nh_arena_alloc(system->arena, (m + 1) * sizeof *system->quasi_map);
+    for (size_t i = 0; i < b->n; i++) system->quasi_velocity[i] = nh_symbol(system->dag, name_of(b, i));
     for (size_t j = 0; j < m; j++) {
-        nh_ex sum = nh_int(s->dag, 0);
+        nh_ex sum = nh_int(system->dag, 0);
         for (size_t i = 0; i < b->n; i++)
-            sum = nh_add(s->dag, sum, nh_mul(s->dag, b->field[i * m + j], s->quasi_velocity[i]));
-        s->quasi_map[j] = sum;
+            sum = nh_add(system->dag, sum, nh_mul(system->dag, b->field[i * m + j], system->quasi_velocity[i]));
+        system->quasi_map[j] = sum;
     }
 }
 
@@ -164,14 +166,14 @@ static void take_velocities(const basis *b)
 /* "p_phi" is dL/dphi'. */
 static nh_named *momenta(nh_system_reader *r, size_t *count)
 {
-    nh_system *s = r->system;
-    nh_named *p = nh_system_take(r, s->coordinates, sizeof *p);
+    nh_system *system = r->system;
+    nh_named *p = nh_system_take(r, system->coordinates, sizeof *p);
     nh_ex taken;
-    for (size_t i = 0; i < s->coordinates; i++) {
-        const char *name = nh_arena_printf(s->arena, "p_%s", s->coordinate[i].name);
-        if (nh_symbol_find(s->dag, name, &taken)) continue;
-        p[(*count)++] =
-            (nh_named){.name = name, .text = name, .value = nh_diff(s->dag, s->lagrangian, s->coordinate[i].v)};
+    for (size_t i = 0; i < system->coordinates; i++) {
+        const char *name = nh_arena_printf(system->arena, "p_%s", system->coordinate[i].name);
+        if (nh_symbol_find(system->dag, name, &taken)) continue;
+        p[(*count)++] = (nh_named){
+            .name = name, .text = name, .value = nh_diff(system->dag, system->lagrangian, system->coordinate[i].v)};
     }
     return p;
 }
@@ -179,59 +181,59 @@ static nh_named *momenta(nh_system_reader *r, size_t *count)
 static bool read_level(nh_system_reader *r, const nh_deck_node *node, size_t count, const nh_named *momentum,
                        bool *linear)
 {
-    nh_system *s = r->system;
-    nh_constraint *c = &s->constraint[s->constraints];
+    nh_system *system = r->system;
+    nh_constraint *c = &system->constraint[system->constraints];
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a level `... = ...`", r->error)) return false;
     *c = (nh_constraint){.text = node->text, .node = node};
-    if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, count, momentum, &c->lhs, &c->rhs, r->error))
+    if (!nh_system_read_expression(system, r->deck, node, 0, NH_NO_QUASI, count, momentum, &c->lhs, &c->rhs, r->error))
         return false;
-    nh_ex f = nh_sub(s->dag, c->lhs, c->rhs);
+    nh_ex f = nh_sub(system->dag, c->lhs, c->rhs);
     bool moving = false, own;
-    for (size_t j = 0; j < s->coordinates; j++) moving |= !nh_is_zero(s->dag, slope(s, f, j));
-    if (!moving || !is_affine(s, f, &own)) {
+    for (size_t j = 0; j < system->coordinates; j++) moving |= !nh_is_zero(system->dag, slope(system, f, j));
+    if (!moving || !is_affine(system, f, &own)) {
         nh_deck_fail(r->deck, node, 0, r->error,
                      moving ? "this level is not linear in the velocities" : "this level contains no velocity");
         return nh_error_hint(
             r->error, "write it as a momentum or another integral linear in the velocities, for example `p_%s = 0`",
-            s->coordinate[0].name);
+            system->coordinate[0].name);
     }
     *linear &= own;
-    s->constraints++;
-    s->levels++;
+    system->constraints++;
+    system->levels++;
     return true;
 }
 
 bool nh_system_read_levels(nh_system_reader *r)
 {
     const nh_deck_node *list;
-    nh_system *s = r->system;
-    size_t n, given = s->constraints, count = 0;
+    nh_system *system = r->system;
+    size_t n, given = system->constraints, count = 0;
     if (!nh_system_list_of(r, r->root, "levels", &list, &n)) return false;
     if (!n) return true;
     basis b;
-    bool linear = begin(&b, s, given);
+    bool linear = begin(&b, system, given);
     nh_constraint *all = nh_system_take(r, given + n, sizeof *all);
-    memcpy(all, s->constraint, given * sizeof *all);
-    s->constraint = all;
+    memcpy(all, system->constraint, given * sizeof *all);
+    system->constraint = all;
     const nh_named *momentum = momenta(r, &count);
     for (size_t i = 0; i < n; i++)
         if (!read_level(r, list->item[i], count, momentum, &linear)) return false;
-    for (size_t a = given; a < s->constraints && linear; a++)
-        linear = restrict_to(&b, nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs));
-    s->dependents = s->quasi = 0;
+    for (size_t a = given; a < system->constraints && linear; a++)
+        linear = restrict_to(&b, nh_sub(system->dag, system->constraint[a].lhs, system->constraint[a].rhs));
+    system->dependents = system->quasi = 0;
     if (linear) take_velocities(&b);
     return true;
 }
 
-bool nh_system_refuse_level(const nh_system *s, size_t level, bool proved, nh_error *error)
+bool nh_system_refuse_level(const nh_system *system, size_t level, bool proved, nh_error *error)
 {
-    const nh_constraint *c = &s->constraint[s->constraints - s->levels + level];
-    nh_deck_fail(s->deck, c->node, 0, error,
+    const nh_constraint *c = &system->constraint[system->constraints - system->levels + level];
+    nh_deck_fail(system->deck, c->node, 0, error,
                  proved ? "motions leave this level: it is not one of an integral"
                         : "whether motions stay on this level was not decided");
-    for (size_t i = 0; i < s->coordinates; i++)
-        if (!nh_depends(s->dag, s->lagrangian, s->coordinate[i].q))
+    for (size_t i = 0; i < system->coordinates; i++)
+        if (!nh_depends(system->dag, system->lagrangian, system->coordinate[i].q))
             return nh_error_hint(error, "%s does not occur in the Lagrangian: `p_%s` may be constant",
-                                 s->coordinate[i].name, s->coordinate[i].name);
+                                 system->coordinate[i].name, system->coordinate[i].name);
     return nh_error_hint(error, "`nhsym analyze` without this level lists what is conserved");
 }

@@ -74,23 +74,24 @@ static range function_of(nh_function f, range a)
 }
 
 /* Bounds of e, wherever it is real. */
-static range range_of(const nh_system *s, nh_ex e, int depth)
+static range range_of(const nh_system *system, nh_ex e, int depth)
 {
-    const nh_dag *d = s->dag;
+    const nh_dag *d = system->dag;
     range out;
     if (depth > deepest) return everything;
     switch (nh_kind_of(d, e)) {
     case NH_NUMBER: out.low = out.high = nh_num_value(nh_number_of(d, e)); return outwards(out);
     case NH_SYMBOL:
-        for (size_t i = 0; i < s->parameters; i++)
-            if (s->parameter[i].symbol == e) return (range){s->parameter[i].value, s->parameter[i].value};
+        for (size_t i = 0; i < system->parameters; i++)
+            if (system->parameter[i].symbol == e)
+                return (range){system->parameter[i].value, system->parameter[i].value};
         return everything;
     case NH_SUM:
         out.low = out.high = nh_num_value(nh_constant_of(d, e));
         out = outwards(out);
         for (size_t i = 0; i < nh_arity(d, e); i++) {
             double c = nh_num_value(nh_coefficient_of(d, e, i));
-            range term = product_of((range){c, c}, range_of(s, nh_child(d, e, i), depth + 1));
+            range term = product_of((range){c, c}, range_of(system, nh_child(d, e, i), depth + 1));
             out = outwards((range){out.low + term.low, out.high + term.high});
         }
         return out;
@@ -99,20 +100,20 @@ static range range_of(const nh_system *s, nh_ex e, int depth)
         out = outwards(out);
         for (size_t i = 0; i < nh_arity(d, e); i++) {
             nh_ex x = nh_exponent_of(d, e, i);
-            range base = range_of(s, nh_child(d, e, i), depth + 1);
+            range base = range_of(system, nh_child(d, e, i), depth + 1);
             bool numeric = nh_kind_of(d, x) == NH_NUMBER && nh_num_short(nh_number_of(d, x));
             out = product_of(out, numeric ? outwards(power_of(base, nh_number_of(d, x))) : everything);
         }
         return out;
     default:
         return function_of(nh_function_of(d, e),
-                           nh_arity(d, e) ? range_of(s, nh_child(d, e, 0), depth + 1) : everything);
+                           nh_arity(d, e) ? range_of(system, nh_child(d, e, 0), depth + 1) : everything);
     }
 }
 
-static bool never_zero(const nh_system *s, nh_ex e)
+static bool never_zero(const nh_system *system, nh_ex e)
 {
-    range r = range_of(s, e, 0);
+    range r = range_of(system, e, 0);
     return r.low > 0 || r.high < 0;
 }
 
@@ -175,18 +176,19 @@ static int descend(search *x, double *z)
 
 static void create(search *x, const nh_ex *level)
 {
-    nh_system *s = x->system;
+    nh_system *system = x->system;
     nh_ex *in = nh_alloc_array(x->width, sizeof *in), *out = nh_alloc_array(x->k * (1 + x->width), sizeof *out);
     const nh_ex *symbols;
     const double *values;
-    in[0] = s->t;
-    for (size_t i = 0; i < x->m; i++) in[1 + i] = s->coordinate[i].q;
+    in[0] = system->t;
+    for (size_t i = 0; i < x->m; i++) in[1 + i] = system->coordinate[i].q;
     for (size_t a = 0; a < x->k; a++) {
         out[a] = level[a];
-        for (size_t j = 0; j < x->width; j++) out[x->k + a + j * x->k] = nh_diff(s->dag, level[a], in[j]);
+        for (size_t j = 0; j < x->width; j++) out[x->k + a + j * x->k] = nh_diff(system->dag, level[a], in[j]);
     }
-    nh_system_bindings(s, &symbols, &values);
-    x->tape = nh_tape_create(s->dag, x->width, in, x->k * (1 + x->width), out, s->parameters, symbols, values);
+    nh_system_bindings(system, &symbols, &values);
+    x->tape =
+        nh_tape_create(system->dag, x->width, in, x->k * (1 + x->width), out, system->parameters, symbols, values);
     x->work = nh_tape_work_create(x->tape);
     x->out = nh_alloc_array(x->k * (1 + x->width), sizeof *x->out);
     x->dense = nh_alloc_array(x->k * x->m + 1, sizeof *x->dense);
@@ -194,7 +196,7 @@ static void create(search *x, const nh_ex *level)
     x->half = nh_alloc_array(x->width, sizeof *x->half);
     for (size_t j = 0; j < x->width; j++) {
         double low, high;
-        nh_domain_range(s, in[j], &low, &high);
+        nh_domain_range(system, in[j], &low, &high);
         x->half[j] = (high - low) / 2;
     }
     nh_free(in);
@@ -236,24 +238,25 @@ static bool has_point(nh_system *s, size_t k, const nh_ex *level, uint64_t seed)
     return found || evaluated < enough_starts;
 }
 
-bool nh_levels_check(nh_system *s, uint64_t seed, nh_error *error)
+bool nh_levels_check(nh_system *system, uint64_t seed, nh_error *error)
 {
-    nh_ex *level = nh_alloc_array(s->constraints + 1, sizeof *level);
+    nh_ex *level = nh_alloc_array(system->constraints + 1, sizeof *level);
     size_t k = 0, a = 0;
     bool good = true, proved = false;
-    for (; a < s->constraints && good; a++) {
-        if (!s->constraint[a].position) continue;
-        level[k++] = s->constraint[a].level;
-        proved = never_zero(s, level[k - 1]);
-        good = !proved && has_point(s, k, level, seed);
+    for (; a < system->constraints && good; a++) {
+        if (!system->constraint[a].position) continue;
+        level[k++] = system->constraint[a].level;
+        proved = never_zero(system, level[k - 1]);
+        good = !proved && has_point(system, k, level, seed);
         if (good) continue;
-        const nh_deck_node *node = s->constraint[a].node;
+        const nh_deck_node *node = system->constraint[a].node;
         if (proved)
-            nh_deck_fail(s->deck, node, 0, error,
+            nh_deck_fail(system->deck, node, 0, error,
                          "no real positions satisfy this constraint: its two sides differ everywhere");
-        else if (k == 1) nh_deck_fail(s->deck, node, 0, error, "no positions were found that satisfy this constraint");
+        else if (k == 1)
+            nh_deck_fail(system->deck, node, 0, error, "no positions were found that satisfy this constraint");
         else
-            nh_deck_fail(s->deck, node, 0, error,
+            nh_deck_fail(system->deck, node, 0, error,
                          "no positions were found that satisfy this constraint and those before it");
         if (proved) nh_error_hint(error, "check the signs and the parameter values");
         else

@@ -11,30 +11,30 @@
 /* a wall is sought up to so many half widths from the middle of the interval, in so many steps */
 enum { farthest = 16, steps = 512 };
 
-static bool is_given(const nh_system *s, nh_ex symbol)
+static bool is_given(const nh_system *system, nh_ex symbol)
 {
-    for (size_t i = 0; i < s->intervals; i++)
-        if (s->interval[i].symbol == symbol) return true;
+    for (size_t i = 0; i < system->intervals; i++)
+        if (system->interval[i].symbol == symbol) return true;
     return false;
 }
 
 /* The one symbol of time, position or velocity in the wall, whose interval is a default one and no full turn. */
-static bool only_symbol(const nh_system *s, nh_ex wall, nh_ex *out)
+static bool only_symbol(const nh_system *system, nh_ex wall, nh_ex *out)
 {
     size_t n = 0;
-    if (nh_depends(s->dag, wall, s->t)) {
-        *out = s->t;
+    if (nh_depends(system->dag, wall, system->t)) {
+        *out = system->t;
         n++;
     }
-    for (size_t i = 0; i < s->coordinates; i++) {
-        const nh_coordinate *c = &s->coordinate[i];
-        bool place = nh_depends(s->dag, wall, c->q), moves = nh_depends(s->dag, wall, c->v);
+    for (size_t i = 0; i < system->coordinates; i++) {
+        const nh_coordinate *c = &system->coordinate[i];
+        bool place = nh_depends(system->dag, wall, c->q), moves = nh_depends(system->dag, wall, c->v);
         if (!place && !moves) continue;
         if (place && c->type == NH_ANGLE) return false;
         *out = place ? c->q : c->v;
         n += (size_t)place + (size_t)moves;
     }
-    return n == 1 && !is_given(s, *out);
+    return n == 1 && !is_given(system, *out);
 }
 
 /* The sign changes nearest to the middle on both sides of it; infinite where there is none. */
@@ -59,17 +59,17 @@ static void roots_around(const nh_tape *tape, double low, double high, double *b
     nh_tape_work_free(work);
 }
 
-static void reach(nh_system *s, nh_ex wall, nh_ex symbol)
+static void reach(nh_system *system, nh_ex wall, nh_ex symbol)
 {
     double low, high, below, above;
-    nh_ex *parameter = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *parameter);
-    double *value = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *value);
-    for (size_t i = 0; i < s->parameters; i++) {
-        parameter[i] = s->parameter[i].symbol;
-        value[i] = s->parameter[i].value;
+    nh_ex *parameter = nh_arena_alloc(system->arena, (system->parameters + 1) * sizeof *parameter);
+    double *value = nh_arena_alloc(system->arena, (system->parameters + 1) * sizeof *value);
+    for (size_t i = 0; i < system->parameters; i++) {
+        parameter[i] = system->parameter[i].symbol;
+        value[i] = system->parameter[i].value;
     }
-    nh_tape *tape = nh_tape_create(s->dag, 1, &symbol, 1, &wall, s->parameters, parameter, value);
-    nh_domain_range(s, symbol, &low, &high);
+    nh_tape *tape = nh_tape_create(system->dag, 1, &symbol, 1, &wall, system->parameters, parameter, value);
+    nh_domain_range(system, symbol, &low, &high);
     roots_around(tape, low, high, &below, &above);
     nh_tape_free(tape);
     double half = (high - low) / 2, margin = half / 2;
@@ -77,19 +77,20 @@ static void reach(nh_system *s, nh_ex wall, nh_ex symbol)
     if (inside || (isinf(below) && isinf(above))) return;
     if (above - high <= low - below) high = fmax(high, above + half);
     else low = fmin(low, below - half);
-    s->reach[s->reaches++] = (nh_interval){symbol, low, high};
+    system->reach[system->reaches++] = (nh_interval){symbol, low, high};
 }
 
-void nh_reach_walls(nh_system *s)
+void nh_reach_walls(nh_system *system)
 {
     nh_walls walls = {0};
-    nh_walls_add(&walls, s->dag, s->lagrangian);
-    for (size_t i = 0; i < s->coordinates && s->has_forces; i++) nh_walls_add(&walls, s->dag, s->force[i]);
-    for (size_t a = 0; a < s->constraints; a++)
-        nh_walls_add(&walls, s->dag, nh_sub(s->dag, s->constraint[a].lhs, s->constraint[a].rhs));
-    if (walls.count) s->reach = nh_arena_alloc(s->arena, walls.count * sizeof *s->reach);
+    nh_walls_add(&walls, system->dag, system->lagrangian);
+    for (size_t i = 0; i < system->coordinates && system->has_forces; i++)
+        nh_walls_add(&walls, system->dag, system->force[i]);
+    for (size_t a = 0; a < system->constraints; a++)
+        nh_walls_add(&walls, system->dag, nh_sub(system->dag, system->constraint[a].lhs, system->constraint[a].rhs));
+    if (walls.count) system->reach = nh_arena_alloc(system->arena, walls.count * sizeof *system->reach);
     for (size_t i = 0; i < walls.count; i++) {
         nh_ex symbol = 0;
-        if (!walls.edge[i] && only_symbol(s, walls.e[i], &symbol)) reach(s, walls.e[i], symbol);
+        if (!walls.edge[i] && only_symbol(system, walls.e[i], &symbol)) reach(system, walls.e[i], symbol);
     }
 }

@@ -56,11 +56,11 @@ bool nh_system_read_robustness(nh_system_reader *r)
 {
     const nh_deck_node *list;
     size_t n;
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (!nh_system_list_of(r, r->root, "robustness", &list, &n)) return false;
-    s->robustness_map = nh_system_take(r, n, sizeof *s->robustness_map);
+    system->robustness_map = nh_system_take(r, n, sizeof *system->robustness_map);
     for (size_t i = 0; i < n; i++)
-        if (!read_one(r, list->item[i], &s->robustness_map[i])) return false;
-    s->robustness_maps = n;
+        if (!read_one(r, list->item[i], &system->robustness_map[i])) return false;
+    system->robustness_maps = n;
     return true;
 }

@@ -35,13 +35,13 @@ static bool in_named(size_t count, const nh_named *list, const char *name, nh_ex
 
 static bool in_coordinates(const scope *s, const char *name, nh_ex *out, nh_parse_fault *fault)
 {
-    const nh_system *y = s->system;
-    for (size_t i = 0; i < y->coordinates; i++) {
-        size_t n = strlen(y->coordinate[i].name);
-        if (strncmp(y->coordinate[i].name, name, n)) continue;
+    const nh_system *system = s->system;
+    for (size_t i = 0; i < system->coordinates; i++) {
+        size_t n = strlen(system->coordinate[i].name);
+        if (strncmp(system->coordinate[i].name, name, n)) continue;
         bool velocity = !strcmp(name + n, "'");
         if (name[n] && !velocity) continue;
-        *out = velocity ? y->coordinate[i].v : y->coordinate[i].q;
+        *out = velocity ? system->coordinate[i].v : system->coordinate[i].q;
         if (!velocity || !(s->forbid & NH_NO_VELOCITIES)) return true;
         snprintf(fault->what, sizeof fault->what, "the velocity `%s` cannot be used here", name);
         snprintf(fault->hint, sizeof fault->hint,
@@ -55,19 +55,21 @@ static bool in_coordinates(const scope *s, const char *name, nh_ex *out, nh_pars
    velocities would hold accelerations. */
 static bool rate_of_definition(const scope *s, const char *name, nh_ex *out, nh_parse_fault *fault)
 {
-    const nh_system *y = s->system;
+    const nh_system *system = s->system;
     size_t length = strcspn(name, "'");
     const nh_named *x = NULL;
-    for (size_t i = 0; i < y->definitions; i++)
-        if (strlen(y->definition[i].name) == length && !strncmp(y->definition[i].name, name, length))
-            x = &y->definition[i];
+    for (size_t i = 0; i < system->definitions; i++)
+        if (strlen(system->definition[i].name) == length && !strncmp(system->definition[i].name, name, length))
+            x = &system->definition[i];
     if (!x || strcmp(name + length, "'")) return false;
-    *out = nh_diff(y->dag, x->value, y->t);
-    for (size_t i = 0; i < y->coordinates; i++) {
-        if (!nh_is_zero(y->dag, nh_diff(y->dag, x->value, y->coordinate[i].v)))
+    *out = nh_diff(system->dag, x->value, system->t);
+    for (size_t i = 0; i < system->coordinates; i++) {
+        if (!nh_is_zero(system->dag, nh_diff(system->dag, x->value, system->coordinate[i].v)))
             snprintf(fault->what, sizeof fault->what,
                      "`%s` is the time derivative of a definition with velocities: it contains accelerations", name);
-        *out = nh_add(y->dag, *out, nh_mul(y->dag, nh_diff(y->dag, x->value, y->coordinate[i].q), y->coordinate[i].v));
+        *out = nh_add(
+            system->dag, *out,
+            nh_mul(system->dag, nh_diff(system->dag, x->value, system->coordinate[i].q), system->coordinate[i].v));
     }
     if (!fault->what[0] && (s->forbid & NH_NO_VELOCITIES))
         snprintf(fault->what, sizeof fault->what, "the velocity `%s` cannot be used here", name);
@@ -82,19 +84,20 @@ static const char undeclared[] = "declare it under parameters, coordinates or de
 /* "did you mean" over everything that has a name here: the nearest name, or NULL. */
 static const char *suggest(const scope *s, const char *name, nh_parse_fault *fault)
 {
-    const nh_system *y = s->system;
-    size_t n = 0, max = 2 + s->extras + y->definitions + y->parameters + 2 * y->coordinates + y->quasi +
-                        12 * y->orientations + NH_FUNCTION_COUNT;
+    const nh_system *system = s->system;
+    size_t n = 0, max = 2 + s->extras + system->definitions + system->parameters + 2 * system->coordinates +
+                        system->quasi + 12 * system->orientations + NH_FUNCTION_COUNT;
     const char **list = nh_alloc_array(max, sizeof *list);
     for (size_t i = 0; i < s->extras; i++) list[n++] = s->extra[i].name;
-    for (size_t i = 0; i < y->definitions; i++) list[n++] = y->definition[i].name;
-    for (size_t i = 0; i < y->parameters; i++) list[n++] = y->parameter[i].name;
-    for (size_t i = 0; i < y->coordinates; i++) list[n++] = y->coordinate[i].name;
-    for (size_t i = 0; i < y->coordinates && y->coordinate[i].v; i++)
-        list[n++] = nh_name_of(y->dag, y->coordinate[i].v);
-    for (size_t i = 0; i < y->quasi; i++) list[n++] = nh_name_of(y->dag, y->quasi_velocity[i]);
-    for (size_t i = 0; i < 12 * y->orientations; i++)
-        list[n++] = i % 12 < 9 ? y->orientation[i / 12].entry[i % 12] : y->orientation[i / 12].word[i % 12 - 9];
+    for (size_t i = 0; i < system->definitions; i++) list[n++] = system->definition[i].name;
+    for (size_t i = 0; i < system->parameters; i++) list[n++] = system->parameter[i].name;
+    for (size_t i = 0; i < system->coordinates; i++) list[n++] = system->coordinate[i].name;
+    for (size_t i = 0; i < system->coordinates && system->coordinate[i].v; i++)
+        list[n++] = nh_name_of(system->dag, system->coordinate[i].v);
+    for (size_t i = 0; i < system->quasi; i++) list[n++] = nh_name_of(system->dag, system->quasi_velocity[i]);
+    for (size_t i = 0; i < 12 * system->orientations; i++)
+        list[n++] =
+            i % 12 < 9 ? system->orientation[i / 12].entry[i % 12] : system->orientation[i / 12].word[i % 12 - 9];
     list[n++] = "sqrt";
     for (int f = 0; f < NH_FUNCTION_COUNT; f++) list[n++] = nh_function_name((nh_function)f);
     snprintf(fault->what, sizeof fault->what, "unknown name `%s`", name);
@@ -123,7 +126,7 @@ static const char *suggest(const scope *s, const char *name, nh_parse_fault *fau
 /* xdot, x_dot, dotx for x', e for exp, np.sin for sin: how the same is written elsewhere. */
 static void translate(const scope *s, const char *name, const char *near, nh_parse_fault *fault)
 {
-    const nh_system *y = s->system;
+    const nh_system *system = s->system;
     if (!strcmp(name, "energy")) snprintf(fault->hint, sizeof fault->hint, "the energy is written E");
     if (!strcmp(name, "e"))
         snprintf(fault->hint, sizeof fault->hint,
@@ -132,40 +135,41 @@ static void translate(const scope *s, const char *name, const char *near, nh_par
     for (size_t i = 0; i < sizeof module / sizeof *module; i++)
         if (!strcmp(name, module[i]))
             snprintf(fault->hint, sizeof fault->hint, "functions are written without a module: sin(x), sqrt(x), pi");
-    const char *q = nh_system_velocity_meant(y, name, near);
+    const char *q = nh_system_velocity_meant(system, name, near);
     if (q) snprintf(fault->hint, sizeof fault->hint, NH_VELOCITY_IS_WRITTEN, q, q);
 }
 
 static bool resolve(void *context, const char *name, nh_ex *out, nh_parse_fault *fault)
 {
     const scope *s = context;
-    const nh_system *y = s->system;
+    const nh_system *system = s->system;
     if (!strcmp(name, "t")) {
-        *out = y->t;
+        *out = system->t;
         return true;
     }
-    const nh_named *definition = s->forbid & NH_FRAMED ? y->framed_definition : y->definition;
+    const nh_named *definition = s->forbid & NH_FRAMED ? system->framed_definition : system->definition;
     bool velocity;
-    if (in_named(s->extras, s->extra, name, out) || in_named(y->definitions, definition, name, out)) return true;
-    name = nh_system_state_name(y, name);
-    for (size_t i = 0; i < y->quasi && y->orientations && !(s->forbid & NH_NO_QUASI); i++)
-        if (!strcmp(nh_name_of(y->dag, y->quasi_velocity[i]), name)) return *out = y->quasi_velocity[i], true;
-    if (nh_orientation_word(y, name, s->forbid & NH_FRAMED, &velocity, out)) {
+    if (in_named(s->extras, s->extra, name, out) || in_named(system->definitions, definition, name, out)) return true;
+    name = nh_system_state_name(system, name);
+    for (size_t i = 0; i < system->quasi && system->orientations && !(s->forbid & NH_NO_QUASI); i++)
+        if (!strcmp(nh_name_of(system->dag, system->quasi_velocity[i]), name))
+            return *out = system->quasi_velocity[i], true;
+    if (nh_orientation_word(system, name, s->forbid & NH_FRAMED, &velocity, out)) {
         if (!velocity || !(s->forbid & NH_NO_VELOCITIES)) return true;
         snprintf(fault->what, sizeof fault->what, "the angular velocity `%s` cannot be used here", name);
         return false;
     }
-    for (size_t i = 0; i < y->parameters; i++) {
-        if (strcmp(y->parameter[i].name, name)) continue;
-        *out = y->parameter[i].symbol;
+    for (size_t i = 0; i < system->parameters; i++) {
+        if (strcmp(system->parameter[i].name, name)) continue;
+        *out = system->parameter[i].symbol;
         return true;
     }
     if (in_coordinates(s, name, out, fault)) return true;
     if (!fault->what[0] && rate_of_definition(s, name, out, fault)) return true;
     if (fault->what[0]) return false;
-    for (size_t i = 0; i < y->quasi; i++) {
-        if (strcmp(nh_name_of(y->dag, y->quasi_velocity[i]), name)) continue;
-        *out = y->quasi_velocity[i];
+    for (size_t i = 0; i < system->quasi; i++) {
+        if (strcmp(nh_name_of(system->dag, system->quasi_velocity[i]), name)) continue;
+        *out = system->quasi_velocity[i];
         if (!(s->forbid & NH_NO_QUASI)) return true;
         snprintf(fault->what, sizeof fault->what, "the quasi-velocity `%s` cannot be used here", name);
         snprintf(fault->hint, sizeof fault->hint, "write it in the coordinates' own velocities");
@@ -187,17 +191,17 @@ static bool not_an_equation(const nh_deck *deck, const nh_deck_node *node, size_
 }
 
 /* The order of a function must be constant: a first argument that contains coordinates, velocities or time, or NULL. */
-static const char *moving_order(const nh_system *y, nh_ex e)
+static const char *moving_order(const nh_system *system, nh_ex e)
 {
     NH_LIST(call);
     NH_LIST(symbol);
-    size_t calls = nh_functions_in(y->dag, e, &call);
+    size_t calls = nh_functions_in(system->dag, e, &call);
     for (size_t i = 0; i < calls; i++) {
-        nh_function f = nh_function_of(y->dag, call[i]);
+        nh_function f = nh_function_of(system->dag, call[i]);
         for (size_t j = 0; j < nh_function_constants(f); j++) {
-            size_t n = nh_symbols_in(y->dag, nh_child(y->dag, call[i], j), &symbol), fixed = 0;
+            size_t n = nh_symbols_in(system->dag, nh_child(system->dag, call[i], j), &symbol), fixed = 0;
             for (size_t k = 0; k < n; k++)
-                for (size_t p = 0; p < y->parameters; p++) fixed += y->parameter[p].symbol == symbol[k];
+                for (size_t p = 0; p < system->parameters; p++) fixed += system->parameter[p].symbol == symbol[k];
             if (fixed < n) return nh_function_name(f);
         }
     }
@@ -205,13 +209,14 @@ static const char *moving_order(const nh_system *y, nh_ex e)
 }
 
 /* Parses, and checks conditions beyond the grammar. */
-static bool read_text(const nh_system *y, const char *text, scope *s, nh_ex *lhs, nh_ex *rhs, nh_parse_fault *fault)
+static bool read_text(const nh_system *system, const char *text, scope *s, nh_ex *lhs, nh_ex *rhs,
+                      nh_parse_fault *fault)
 {
-    if (lhs ? !nh_parse_equation(y->dag, text, resolve, s, lhs, rhs, fault)
-            : !nh_parse(y->dag, text, resolve, s, rhs, fault))
+    if (lhs ? !nh_parse_equation(system->dag, text, resolve, s, lhs, rhs, fault)
+            : !nh_parse(system->dag, text, resolve, s, rhs, fault))
         return false;
-    const char *name = lhs ? moving_order(y, *lhs) : NULL, *place;
-    if (!name) name = moving_order(y, *rhs);
+    const char *name = lhs ? moving_order(system, *lhs) : NULL, *place;
+    if (!name) name = moving_order(system, *rhs);
     if (!name) return true;
     nh_function f = NH_SIN;
     while (strcmp(nh_function_name(f), name)) f++;
@@ -319,23 +324,26 @@ long nh_system_coordinate(const nh_system *system, const char *name)
     return -1;
 }
 
-const char *nh_system_state_name(const nh_system *s, const char *name)
+const char *nh_system_state_name(const nh_system *system, const char *name)
 {
     static const char *const around[][3] = {
         {"", "_dot", "'"}, {"", "dot", "'"}, {"d", "/dt", "'"}, {"", "_ddot", "''"}, {"", "ddot", "''"}};
     size_t length = strlen(name);
     bool start = length > 3 && !strcmp(name + length - 3, "(0)"); /* x(0) = 1 */
-    name = nh_deck_spelled(s->arena, start ? nh_arena_strndup(s->arena, name, length - 3) : name);
+    name = nh_deck_spelled(system->arena, start ? nh_arena_strndup(system->arena, name, length - 3) : name);
     length = strlen(name);
     nh_ex taken;
-    if (nh_symbol_find(s->dag, name, &taken) || in_named(s->definitions, s->definition, name, &taken)) return name;
+    if (nh_symbol_find(system->dag, name, &taken) || in_named(system->definitions, system->definition, name, &taken))
+        return name;
     for (size_t i = 0; i < sizeof around / sizeof *around; i++) {
         size_t head = strlen(around[i][0]), tail = strlen(around[i][1]);
         if (length <= head + tail || strncmp(name, around[i][0], head) || strcmp(name + length - tail, around[i][1]))
             continue;
-        const char *stem = nh_deck_spelled(s->arena, nh_arena_strndup(s->arena, name + head, length - head - tail));
-        bool known = nh_symbol_find(s->dag, stem, &taken) || in_named(s->definitions, s->definition, stem, &taken);
-        if (known || !i) return nh_arena_printf(s->arena, "%s%s", stem, around[i][2]);
+        const char *stem =
+            nh_deck_spelled(system->arena, nh_arena_strndup(system->arena, name + head, length - head - tail));
+        bool known = nh_symbol_find(system->dag, stem, &taken) ||
+                     in_named(system->definitions, system->definition, stem, &taken);
+        if (known || !i) return nh_arena_printf(system->arena, "%s%s", stem, around[i][2]);
     }
     return name;
 }
@@ -352,25 +360,25 @@ void nh_system_bindings(const nh_system *system, const nh_ex **symbols, const do
     *values = v;
 }
 
-nh_ex nh_system_values(const nh_system *s, nh_dag *dag, nh_ex e)
+nh_ex nh_system_values(const nh_system *system, nh_dag *dag, nh_ex e)
 {
-    nh_ex *symbol = nh_alloc_array(2 * s->parameters + 1, sizeof *symbol), *value = symbol + s->parameters;
-    for (size_t i = 0; i < s->parameters; i++) {
-        symbol[i] = s->parameter[i].symbol;
-        value[i] = nh_number(dag, nh_num_decimal(s->parameter[i].value));
+    nh_ex *symbol = nh_alloc_array(2 * system->parameters + 1, sizeof *symbol), *value = symbol + system->parameters;
+    for (size_t i = 0; i < system->parameters; i++) {
+        symbol[i] = system->parameter[i].symbol;
+        value[i] = nh_number(dag, nh_num_decimal(system->parameter[i].value));
     }
-    e = nh_substitute(dag, e, s->parameters, symbol, value);
+    e = nh_substitute(dag, e, system->parameters, symbol, value);
     nh_free(symbol);
     return e;
 }
 
-double nh_system_number(const nh_system *s, nh_ex e)
+double nh_system_number(const nh_system *system, nh_ex e)
 {
     const nh_ex *symbols;
     const double *values;
     double value;
-    nh_system_bindings(s, &symbols, &values);
-    nh_tape_constants(s->dag, 1, &e, s->parameters, symbols, values, &value);
+    nh_system_bindings(system, &symbols, &values);
+    nh_tape_constants(system->dag, 1, &e, system->parameters, symbols, values, &value);
     return value;
 }
 

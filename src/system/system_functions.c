@@ -42,13 +42,13 @@ static bool fail_form(reader *r, const nh_deck_node *node)
 /* A value may contain its argument and parameters alone. */
 static bool only_argument(reader *r, nh_ex value, nh_ex variable, const char **other)
 {
-    const nh_system *s = r->system;
+    const nh_system *system = r->system;
     NH_LIST(symbol);
-    size_t n = nh_symbols_in(s->dag, value, &symbol);
+    size_t n = nh_symbols_in(system->dag, value, &symbol);
     for (size_t i = 0; i < n; i++) {
         bool good = symbol[i] == variable;
-        for (size_t k = 0; k < s->parameters; k++) good |= symbol[i] == s->parameter[k].symbol;
-        *other = nh_name_of(s->dag, symbol[i]);
+        for (size_t k = 0; k < system->parameters; k++) good |= symbol[i] == system->parameter[k].symbol;
+        *other = nh_name_of(system->dag, symbol[i]);
         if (!good) return false;
     }
     return true;
@@ -65,9 +65,9 @@ static void give(nh_dag *dag, size_t f, nh_ex variable, nh_ex value)
 }
 
 /* The symbol of the argument, which hides what else has its name; t is t. */
-static nh_ex argument_of(const nh_system *s, const char *name)
+static nh_ex argument_of(const nh_system *system, const char *name)
 {
-    return strcmp(name, "t") ? nh_symbol_fresh(s->dag, name) : s->t;
+    return strcmp(name, "t") ? nh_symbol_fresh(system->dag, name) : system->t;
 }
 
 /* The value in the file. */
@@ -114,22 +114,22 @@ bool nh_system_is_function_setting(const nh_setting *setting) { return strchr(se
 /* A value of a request: `--set "V(r) = k*r^2/2"`. */
 static bool apply(reader *r, const nh_setting *setting)
 {
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     head h;
     size_t f;
     const char *other;
     nh_ex value;
-    if (!split(s->arena, setting->name, &h) || !nh_declared_find(s->dag, h.name, &f)) {
-        nh_fail(r->error, NH_USAGE, "", "`%s` is not a function of %s", setting->name, s->name);
+    if (!split(system->arena, setting->name, &h) || !nh_declared_find(system->dag, h.name, &f)) {
+        nh_fail(r->error, NH_USAGE, "", "`%s` is not a function of %s", setting->name, system->name);
         return nh_error_hint(r->error, "functions are declared in the system file: functions: [\"V(r)\"]");
     }
-    nh_named extra = {.name = h.variable, .value = argument_of(s, h.variable)};
-    if (!nh_system_expression_text(s, nh_arena_printf(s->arena, "--set %s", setting->name), setting->input, 1, &extra,
-                                   &value, r->error))
+    nh_named extra = {.name = h.variable, .value = argument_of(system, h.variable)};
+    if (!nh_system_expression_text(system, nh_arena_printf(system->arena, "--set %s", setting->name), setting->input, 1,
+                                   &extra, &value, r->error))
         return false;
     if (!only_argument(r, value, extra.value, &other))
         return nh_fail(r->error, NH_USAGE, "", outside, h.name, other, h.variable);
-    give(s->dag, f, extra.value, value);
+    give(system->dag, f, extra.value, value);
     return true;
 }
 
@@ -145,10 +145,10 @@ bool nh_system_read_functions(reader *r, size_t settings, const nh_setting *sett
     return true;
 }
 
-bool nh_system_needs_values(const nh_system *s, const char *what, nh_error *error)
+bool nh_system_needs_values(const nh_system *system, const char *what, nh_error *error)
 {
-    const char *name = nh_declared_unspecified(s->dag);
+    const char *name = nh_declared_unspecified(system->dag);
     if (!name) return true;
-    nh_fail(error, NH_INPUT, s->name, "%s needs numbers, but the function `%s` has no value", what, name);
+    nh_fail(error, NH_INPUT, system->name, "%s needs numbers, but the function `%s` has no value", what, name);
     return nh_error_hint(error, "give it one, for example --set \"%s(r) = r^2/2\", or as `value:` in the file", name);
 }

@@ -56,41 +56,41 @@ static bool frame_of(nh_system_reader *r, const nh_deck_node *item, nh_orientati
 
 bool nh_orientation_declare(nh_system_reader *r, const nh_deck_node *item, const nh_deck_node *name, const char *doc)
 {
-    nh_system *s = r->system;
-    nh_orientation *o = &s->orientation[s->orientations];
-    *o = (nh_orientation){.name = name->text, .node = name, .first = s->coordinates};
+    nh_system *system = r->system;
+    nh_orientation *o = &system->orientation[system->orientations];
+    *o = (nh_orientation){.name = name->text, .node = name, .first = system->coordinates};
     if (!nh_system_new_name(r, name) || !frame_of(r, item, o)) return false;
     for (int k = 0; k < 3; k++) {
-        nh_coordinate *c = &s->coordinate[s->coordinates];
-        *c = (nh_coordinate){.name = nh_arena_printf(s->arena, "%s_%d", o->name, k + 1), .unit = "", .doc = doc};
+        nh_coordinate *c = &system->coordinate[system->coordinates];
+        *c = (nh_coordinate){.name = nh_arena_printf(system->arena, "%s_%d", o->name, k + 1), .unit = "", .doc = doc};
         c->type = NH_PLAIN;
         if (!new_name(r, name, c->name)) return false;
-        c->q = nh_symbol(s->dag, c->name);
-        s->coordinates++;
+        c->q = nh_symbol(system->dag, c->name);
+        system->coordinates++;
     }
     if (!words_of(r, item, o)) return false;
-    s->orientations++;
+    system->orientations++;
     return true;
 }
 
-nh_orientation *nh_orientation_named(const nh_system *s, const char *name)
+nh_orientation *nh_orientation_named(const nh_system *system, const char *name)
 {
-    for (size_t i = 0; i < s->orientations; i++)
-        if (!strcmp(s->orientation[i].name, name)) return &s->orientation[i];
+    for (size_t i = 0; i < system->orientations; i++)
+        if (!strcmp(system->orientation[i].name, name)) return &system->orientation[i];
     return NULL;
 }
 
-const nh_orientation *nh_orientation_of(const nh_system *s, size_t coordinate)
+const nh_orientation *nh_orientation_of(const nh_system *system, size_t coordinate)
 {
-    for (size_t i = 0; i < s->orientations; i++)
-        if (coordinate - s->orientation[i].first < 3) return &s->orientation[i];
+    for (size_t i = 0; i < system->orientations; i++)
+        if (coordinate - system->orientation[i].first < 3) return &system->orientation[i];
     return NULL;
 }
 
-bool nh_orientation_word(const nh_system *s, const char *word, bool framed, bool *velocity, nh_ex *out)
+bool nh_orientation_word(const nh_system *system, const char *word, bool framed, bool *velocity, nh_ex *out)
 {
-    for (size_t i = 0; i < s->orientations; i++) {
-        const nh_orientation *o = &s->orientation[i];
+    for (size_t i = 0; i < system->orientations; i++) {
+        const nh_orientation *o = &system->orientation[i];
         for (int k = 0; k < 9; k++) {
             *velocity = k < 3 && !strcmp(o->word[k], word);
             if (*velocity) return *out = framed ? o->framed[k] : o->rate[k], true;
@@ -102,61 +102,64 @@ bool nh_orientation_word(const nh_system *s, const char *word, bool framed, bool
 
 /* ---- expressions ---- */
 
-void nh_orientation_build_all(nh_system *s)
+void nh_orientation_build_all(nh_system *system)
 {
-    for (size_t i = 0; i < s->orientations; i++) {
-        nh_orientation *o = &s->orientation[i];
-        for (size_t k = 0; k < 3; k++) o->q[k] = s->coordinate[o->first + k].q, o->v[k] = s->coordinate[o->first + k].v;
-        nh_orientation_build(s->dag, o);
+    for (size_t i = 0; i < system->orientations; i++) {
+        nh_orientation *o = &system->orientation[i];
+        for (size_t k = 0; k < 3; k++)
+            o->q[k] = system->coordinate[o->first + k].q, o->v[k] = system->coordinate[o->first + k].v;
+        nh_orientation_build(system->dag, o);
     }
 }
 
-nh_ex nh_orientation_framed(const nh_system *s, nh_ex e)
+nh_ex nh_orientation_framed(const nh_system *system, nh_ex e)
 {
-    for (size_t i = 0; i < s->orientations; i++) {
-        const nh_orientation *o = &s->orientation[i];
+    for (size_t i = 0; i < system->orientations; i++) {
+        const nh_orientation *o = &system->orientation[i];
         nh_ex v[3], to[3];
         for (size_t k = 0; k < 3; k++) {
-            v[k] = s->coordinate[o->first + k].v;
-            to[k] = nh_int(s->dag, 0);
+            v[k] = system->coordinate[o->first + k].v;
+            to[k] = nh_int(system->dag, 0);
             for (int j = 0; j < 3; j++)
-                to[k] = nh_add(s->dag, to[k], nh_mul(s->dag, o->map[3 * k + (size_t)j], o->framed[j]));
+                to[k] = nh_add(system->dag, to[k], nh_mul(system->dag, o->map[3 * k + (size_t)j], o->framed[j]));
         }
-        e = nh_substitute(s->dag, e, 3, v, to);
+        e = nh_substitute(system->dag, e, 3, v, to);
     }
     return e;
 }
 
-nh_ex nh_orientation_written(const nh_system *s, nh_ex e)
+nh_ex nh_orientation_written(const nh_system *system, nh_ex e)
 {
-    for (size_t i = 0; i < s->orientations; i++)
-        e = nh_substitute(s->dag, e, 3, s->orientation[i].framed, s->orientation[i].rate);
+    for (size_t i = 0; i < system->orientations; i++)
+        e = nh_substitute(system->dag, e, 3, system->orientation[i].framed, system->orientation[i].rate);
     return e;
 }
 
-void nh_orientation_map(const nh_system *s, const nh_ex *framed, nh_ex *out)
+void nh_orientation_map(const nh_system *system, const nh_ex *framed, nh_ex *out)
 {
-    for (size_t i = 0; i < s->coordinates; i++) {
-        const nh_orientation *o = nh_orientation_of(s, i);
+    for (size_t i = 0; i < system->coordinates; i++) {
+        const nh_orientation *o = nh_orientation_of(system, i);
         if (!o) {
             out[i] = framed[i];
             continue;
         }
-        out[i] = nh_int(s->dag, 0);
+        out[i] = nh_int(system->dag, 0);
         for (size_t k = 0; k < 3; k++)
-            out[i] = nh_add(s->dag, out[i], nh_mul(s->dag, o->map[3 * (i - o->first) + k], framed[o->first + k]));
+            out[i] =
+                nh_add(system->dag, out[i], nh_mul(system->dag, o->map[3 * (i - o->first) + k], framed[o->first + k]));
     }
 }
 
-nh_ex nh_orientation_shown(const nh_system *s, nh_ex e)
+nh_ex nh_orientation_shown(const nh_system *system, nh_ex e)
 {
-    for (size_t i = 0; i < s->orientations; i++) e = nh_orientation_in_entries(s->dag, &s->orientation[i], e);
+    for (size_t i = 0; i < system->orientations; i++)
+        e = nh_orientation_in_entries(system->dag, &system->orientation[i], e);
     return e;
 }
 
-nh_ex nh_orientation_unshown(const nh_system *s, nh_ex e)
+nh_ex nh_orientation_unshown(const nh_system *system, nh_ex e)
 {
-    for (size_t i = 0; i < s->orientations; i++)
-        e = nh_substitute(s->dag, e, 9, s->orientation[i].entry_symbol, s->orientation[i].matrix);
+    for (size_t i = 0; i < system->orientations; i++)
+        e = nh_substitute(system->dag, e, 9, system->orientation[i].entry_symbol, system->orientation[i].matrix);
     return e;
 }

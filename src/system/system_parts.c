@@ -13,16 +13,16 @@
 /* As many as degrees of freedom? */
 static bool count_quasi(nh_system_reader *r, const nh_deck_node *chart)
 {
-    const nh_system *s = r->system;
+    const nh_system *system = r->system;
     const nh_deck_node *list = nh_deck_get(chart, "names");
-    if (s->constraints > s->coordinates) return true; /* the ranks decide */
-    size_t left = s->coordinates - s->constraints;
-    if (s->quasi == left) return true;
+    if (system->constraints > system->coordinates) return true; /* the ranks decide */
+    size_t left = system->coordinates - system->constraints;
+    if (system->quasi == left) return true;
     nh_deck_fail(
         r->deck, list ? list : chart, 0, r->error,
         "there must be as many velocities as degrees of freedom: %zu, not %zu (coordinates: %zu, constraints: %zu)",
-        left, s->quasi, s->coordinates, s->constraints);
-    return s->quasi < left
+        left, system->quasi, system->coordinates, system->constraints);
+    return system->quasi < left
                ? nh_error_hint(r->error, "list every constraint under `constraints:`, and every velocity here")
                : false;
 }
@@ -30,21 +30,21 @@ static bool count_quasi(nh_system_reader *r, const nh_deck_node *chart)
 /* Which coordinate's velocity is on the left side "x'"? */
 static long velocity_on_left(nh_system_reader *r, const nh_deck_node *node, const char *name)
 {
-    const nh_system *s = r->system;
-    const char *own = nh_system_state_name(s, name);
-    for (size_t i = 0; i < s->coordinates; i++)
-        if (!strcmp(own, nh_name_of(s->dag, s->coordinate[i].v))) return (long)i;
+    const nh_system *system = r->system;
+    const char *own = nh_system_state_name(system, name);
+    for (size_t i = 0; i < system->coordinates; i++)
+        if (!strcmp(own, nh_name_of(system->dag, system->coordinate[i].v))) return (long)i;
     nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not the velocity of a coordinate", name);
-    if (nh_system_coordinate(s, name) >= 0) nh_error_hint(r->error, "write `%s' = ...`", name);
+    if (nh_system_coordinate(system, name) >= 0) nh_error_hint(r->error, "write `%s' = ...`", name);
     return -1;
 }
 
 /* The same, or the angular velocity of an orientation, which then is framed. */
 static long rate_on_left(nh_system_reader *r, const nh_deck_node *node, const char *name, bool *framed)
 {
-    const nh_system *s = r->system;
-    for (size_t i = 0; i < 3 * s->orientations; i++) {
-        const nh_orientation *o = &s->orientation[i / 3];
+    const nh_system *system = r->system;
+    for (size_t i = 0; i < 3 * system->orientations; i++) {
+        const nh_orientation *o = &system->orientation[i / 3];
         if (!strcmp(name, o->word[i % 3])) return framed[o->first + i % 3] = true, (long)(o->first + i % 3);
     }
     return velocity_on_left(r, node, name);
@@ -53,10 +53,10 @@ static long rate_on_left(nh_system_reader *r, const nh_deck_node *node, const ch
 /* Of each orientation the map gives the angular velocities, or the velocities of its coordinates. */
 static bool map_framed(nh_system_reader *r, const nh_deck_node *map, const bool *framed)
 {
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     bool all = true;
-    for (size_t i = 0; i < s->orientations; i++) {
-        const nh_orientation *o = &s->orientation[i];
+    for (size_t i = 0; i < system->orientations; i++) {
+        const nh_orientation *o = &system->orientation[i];
         const bool *f = framed + o->first;
         if (f[0] != f[1] || f[0] != f[2])
             return nh_deck_fail(r->deck, map, 0, r->error, "the velocities' map has to give %s, %s and %s", o->word[0],
@@ -65,14 +65,14 @@ static bool map_framed(nh_system_reader *r, const nh_deck_node *map, const bool 
     }
     if (!all) {
         bool any = false;
-        for (size_t i = 0; i < s->coordinates; i++) any |= framed[i];
+        for (size_t i = 0; i < system->coordinates; i++) any |= framed[i];
         return !any || nh_deck_fail(r->deck, map, 0, r->error,
                                     "the velocities' map gives the angular velocities of some orientations, and "
                                     "coordinates' velocities of others: give the same of all");
     }
-    s->quasi_framed = nh_system_take(r, s->coordinates, sizeof *s->quasi_framed);
-    memcpy(s->quasi_framed, s->quasi_map, s->coordinates * sizeof *s->quasi_framed);
-    nh_orientation_map(s, s->quasi_framed, s->quasi_map);
+    system->quasi_framed = nh_system_take(r, system->coordinates, sizeof *system->quasi_framed);
+    memcpy(system->quasi_framed, system->quasi_map, system->coordinates * sizeof *system->quasi_framed);
+    nh_orientation_map(system, system->quasi_framed, system->quasi_map);
     return true;
 }
 
@@ -80,13 +80,14 @@ bool nh_system_read_chart(nh_system_reader *r)
 {
     static const char *const keys[] = {"names", "map"};
     const nh_deck_node *chart = nh_deck_get(r->root, "velocities"), *map;
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     size_t n;
-    if (!chart) return !s->orientations || nh_orientation_velocities(r);
+    if (!chart) return !system->orientations || nh_orientation_velocities(r);
     if (!nh_deck_only(r->deck, chart, keys, 2, r->error) || !count_quasi(r, chart)) return false;
     if (!nh_system_list_of(r, chart, "map", &map, &n)) return false;
-    s->quasi_map = nh_system_take(r, s->coordinates, sizeof *s->quasi_map);
-    bool *given = nh_system_take(r, s->coordinates, sizeof *given), *framed = nh_system_take(r, s->coordinates, 1);
+    system->quasi_map = nh_system_take(r, system->coordinates, sizeof *system->quasi_map);
+    bool *given = nh_system_take(r, system->coordinates, sizeof *given),
+         *framed = nh_system_take(r, system->coordinates, 1);
     for (size_t i = 0; i < n; i++) {
         const char *name;
         if (!nh_system_assignment_name(r, map->item[i], "a line `x' = ...` of the velocities' map", &name))
@@ -95,55 +96,56 @@ bool nh_system_read_chart(nh_system_reader *r)
         if (index < 0) return false;
         if (given[index]) return nh_deck_fail(r->deck, map->item[i], 0, r->error, "`%s` is given twice", name);
         given[index] = true;
-        if (!nh_system_read_right_side(r, map->item[i], NH_NO_VELOCITIES, &s->quasi_map[index])) return false;
-        for (size_t j = 0; j < s->coordinates; j++) /* through a definition */
-            if (nh_depends(s->dag, s->quasi_map[index], s->coordinate[j].v))
+        if (!nh_system_read_right_side(r, map->item[i], NH_NO_VELOCITIES, &system->quasi_map[index])) return false;
+        for (size_t j = 0; j < system->coordinates; j++) /* through a definition */
+            if (nh_depends(system->dag, system->quasi_map[index], system->coordinate[j].v))
                 return nh_deck_fail(r->deck, map->item[i], 0, r->error,
                                     "the velocity `%s` is not allowed here; a definition contains it",
-                                    nh_name_of(s->dag, s->coordinate[j].v));
+                                    nh_name_of(system->dag, system->coordinate[j].v));
     }
-    for (size_t i = 0; i < s->coordinates; i++)
+    for (size_t i = 0; i < system->coordinates; i++)
         if (!given[i])
             return nh_deck_fail(r->deck, map ? map : chart, 0, r->error,
-                                "the velocities' map does not say what `%s'` is", s->coordinate[i].name);
-    return !s->orientations || map_framed(r, map, framed);
+                                "the velocities' map does not say what `%s'` is", system->coordinate[i].name);
+    return !system->orientations || map_framed(r, map, framed);
 }
 
 /* A torque along an angular velocity w: its power is torque w = torque dw/dv^s v^s. */
-static void add_torque(nh_system *s, nh_ex w, nh_ex torque)
+static void add_torque(nh_system *system, nh_ex w, nh_ex torque)
 {
-    for (size_t i = 0; i < s->coordinates; i++)
-        s->force[i] = nh_add(s->dag, s->force[i], nh_mul(s->dag, torque, nh_diff(s->dag, w, s->coordinate[i].v)));
-    s->has_forces = true;
+    for (size_t i = 0; i < system->coordinates; i++)
+        system->force[i] = nh_add(system->dag, system->force[i],
+                                  nh_mul(system->dag, torque, nh_diff(system->dag, w, system->coordinate[i].v)));
+    system->has_forces = true;
 }
 
 bool nh_system_read_forces(nh_system_reader *r)
 {
     const nh_deck_node *list;
     size_t n;
-    nh_system *s = r->system;
-    s->force = nh_system_take(r, s->coordinates, sizeof *s->force);
-    for (size_t i = 0; i < s->coordinates; i++) s->force[i] = nh_int(s->dag, 0);
+    nh_system *system = r->system;
+    system->force = nh_system_take(r, system->coordinates, sizeof *system->force);
+    for (size_t i = 0; i < system->coordinates; i++) system->force[i] = nh_int(system->dag, 0);
     if (!nh_system_read_elements(r) || !nh_system_list_of(r, r->root, "forces", &list, &n)) return false;
     for (size_t i = 0; i < n; i++) {
         const char *name;
         nh_ex value;
         if (!nh_system_assignment_name(r, list->item[i], "a force `coordinate = expression`", &name)) return false;
-        long index = nh_system_coordinate(s, name);
+        long index = nh_system_coordinate(system, name);
         bool turns;
         nh_ex rate;
-        if (index < 0 && nh_orientation_word(s, name, false, &turns, &rate) && turns) {
+        if (index < 0 && nh_orientation_word(system, name, false, &turns, &rate) && turns) {
             if (!nh_system_read_right_side(r, list->item[i], NH_NO_QUASI, &value)) return false;
-            add_torque(s, rate, value);
+            add_torque(system, rate, value);
             continue;
         }
         if (index < 0) {
             nh_deck_fail(r->deck, list->item[i], 0, r->error, "`%s` is not a coordinate", name);
-            return nh_system_hint_coordinates(s, name, r->error);
+            return nh_system_hint_coordinates(system, name, r->error);
         }
         if (!nh_system_read_right_side(r, list->item[i], NH_NO_QUASI, &value)) return false;
-        s->force[index] = nh_add(s->dag, s->force[index], value);
-        s->has_forces = true;
+        system->force[index] = nh_add(system->dag, system->force[index], value);
+        system->has_forces = true;
     }
     return true;
 }
@@ -169,17 +171,18 @@ bool nh_system_read_notes(nh_system_reader *r)
     return true;
 }
 
-size_t nh_system_state_names(const nh_system *s, const char **names)
+size_t nh_system_state_names(const nh_system *system, const char **names)
 {
     size_t n = 0;
     names[n++] = "t";
-    for (size_t i = 0; i < s->coordinates; i++) {
-        names[n++] = s->coordinate[i].name;
-        names[n++] = nh_name_of(s->dag, s->coordinate[i].v);
+    for (size_t i = 0; i < system->coordinates; i++) {
+        names[n++] = system->coordinate[i].name;
+        names[n++] = nh_name_of(system->dag, system->coordinate[i].v);
     }
-    for (size_t i = 0; i < s->quasi; i++) {
-        const char *name = nh_name_of(s->dag, s->quasi_velocity[i]);
-        if (!s->orientations || !strchr(name, '\'')) names[n++] = name; /* beside angular velocities: listed already */
+    for (size_t i = 0; i < system->quasi; i++) {
+        const char *name = nh_name_of(system->dag, system->quasi_velocity[i]);
+        if (!system->orientations || !strchr(name, '\''))
+            names[n++] = name; /* beside angular velocities: listed already */
     }
     return n;
 }
@@ -191,25 +194,25 @@ static bool consists_of(const char *word, const char *before, const char *middle
     return !strncmp(word, before, n) && !strncmp(word + n, middle, length) && !strcmp(word + n + length, after);
 }
 
-const char *nh_system_velocity_meant(const nh_system *s, const char *word, const char *near)
+const char *nh_system_velocity_meant(const nh_system *system, const char *word, const char *near)
 {
     static const char *const around[][2] = {{"", "dot"},  {"", "_dot"}, {"dot", ""}, {"dot_", ""}, {"d", ""},
                                             {"d", "/dt"}, {"d", "_dt"}, {"v", ""},   {"v_", ""},   {"", "d"}};
     static const char digits[] = "0123456789";
     const char *same = NULL; /* the coordinate that ends in the digits after v */
     size_t alike = 0;
-    for (size_t i = 0; i < s->coordinates; i++) {
-        const char *q = s->coordinate[i].name;
+    for (size_t i = 0; i < system->coordinates; i++) {
+        const char *q = system->coordinate[i].name;
         size_t stem = strlen(q);
-        if (!s->coordinate[i].v) continue; /* velocities have no names yet */
+        if (!system->coordinate[i].v) continue; /* velocities have no names yet */
         for (size_t k = 0; k < sizeof around / sizeof *around; k++)
             if (consists_of(word, around[k][0], q, stem, around[k][1]) && !(near && *word == 'v' && *near == 'v'))
                 return q;
         while (stem && strchr(digits, q[stem - 1])) stem--;
         const char *number = q + stem;
         if (!*number) continue;
-        if (consists_of(word, "", q, stem, nh_arena_printf(s->arena, "dot%s", number)) ||
-            consists_of(word, "", q, stem, nh_arena_printf(s->arena, "_dot%s", number)))
+        if (consists_of(word, "", q, stem, nh_arena_printf(system->arena, "dot%s", number)) ||
+            consists_of(word, "", q, stem, nh_arena_printf(system->arena, "_dot%s", number)))
             return q;
         if (*word != 'v' || strcmp(word + 1, number)) continue;
         same = q;
@@ -219,83 +222,84 @@ const char *nh_system_velocity_meant(const nh_system *s, const char *word, const
 }
 
 /* The nearest of the names, or all of them; "its parameters are m, g". */
-static bool hint_names(const nh_system *s, const char *what, size_t n, const char *const *names, const char *word,
+static bool hint_names(const nh_system *system, const char *what, size_t n, const char *const *names, const char *word,
                        nh_error *error)
 {
     const char *near = nh_text_nearest(word, names, n), *all = "";
     if (near) return nh_error_hint(error, "did you mean `%s`?", near);
-    for (size_t i = 0; i < n; i++) all = nh_arena_printf(s->arena, "%s%s%s", all, i ? ", " : "", names[i]);
+    for (size_t i = 0; i < n; i++) all = nh_arena_printf(system->arena, "%s%s%s", all, i ? ", " : "", names[i]);
     return nh_error_hint(error, n > 1 ? "%ss are %.150s" : "%s is %.150s", what, all);
 }
 
-bool nh_system_hint_coordinates(const nh_system *s, const char *word, nh_error *error)
+bool nh_system_hint_coordinates(const nh_system *system, const char *word, nh_error *error)
 {
-    const char **names = nh_arena_alloc(s->arena, (s->coordinates + 1) * sizeof *names);
-    for (size_t i = 0; i < s->coordinates; i++) names[i] = s->coordinate[i].name;
-    return hint_names(s, "the coordinate", s->coordinates, names, word, error);
+    const char **names = nh_arena_alloc(system->arena, (system->coordinates + 1) * sizeof *names);
+    for (size_t i = 0; i < system->coordinates; i++) names[i] = system->coordinate[i].name;
+    return hint_names(system, "the coordinate", system->coordinates, names, word, error);
 }
 
-bool nh_system_hint_parameters(const nh_system *s, const char *word, nh_error *error)
+bool nh_system_hint_parameters(const nh_system *system, const char *word, nh_error *error)
 {
-    const char **names = nh_arena_alloc(s->arena, (s->parameters + 1) * sizeof *names);
-    for (size_t i = 0; i < s->parameters; i++) names[i] = s->parameter[i].name;
-    if (!s->parameters) return nh_error_hint(error, "it has none");
-    return hint_names(s, "its parameter", s->parameters, names, word, error);
+    const char **names = nh_arena_alloc(system->arena, (system->parameters + 1) * sizeof *names);
+    for (size_t i = 0; i < system->parameters; i++) names[i] = system->parameter[i].name;
+    if (!system->parameters) return nh_error_hint(error, "it has none");
+    return hint_names(system, "its parameter", system->parameters, names, word, error);
 }
 
 static bool box_symbol(nh_system_reader *r, const nh_deck_node *key, nh_ex *out)
 {
-    nh_system *s = r->system;
-    const char **names = nh_system_take(r, 2 * s->coordinates + s->quasi + 1, sizeof *names);
-    size_t n = nh_system_state_names(s, names);
-    const char *own = nh_system_state_name(s, key->text);
+    nh_system *system = r->system;
+    const char **names = nh_system_take(r, 2 * system->coordinates + system->quasi + 1, sizeof *names);
+    size_t n = nh_system_state_names(system, names);
+    const char *own = nh_system_state_name(system, key->text);
     for (size_t i = 0; i < n; i++)
-        if (!strcmp(names[i], own)) return nh_symbol_find(s->dag, own, out);
+        if (!strcmp(names[i], own)) return nh_symbol_find(system->dag, own, out);
     nh_deck_fail(r->deck, key, 0, r->error, "`%s` is not a coordinate, a velocity or t", key->text);
-    const char *near = nh_text_nearest(key->text, names, n), *q = nh_system_velocity_meant(s, key->text, near);
+    const char *near = nh_text_nearest(key->text, names, n), *q = nh_system_velocity_meant(system, key->text, near);
     if (q) return nh_error_hint(r->error, NH_VELOCITY_IS_WRITTEN, q, q);
     return near ? nh_error_hint(r->error, "did you mean `%s`?", near)
-                : nh_system_hint_coordinates(s, key->text, r->error);
+                : nh_system_hint_coordinates(system, key->text, r->error);
 }
 
 bool nh_system_read_domain(nh_system_reader *r)
 {
     const nh_deck_node *map = nh_deck_get(r->root, "domain");
-    nh_system *s = r->system;
-    size_t screws = s->chain ? s->chain->screws : 0;
-    s->interval = nh_system_take(r, (map ? map->count : 0) + screws, sizeof *s->interval);
+    nh_system *system = r->system;
+    size_t screws = system->chain ? system->chain->screws : 0;
+    system->interval = nh_system_take(r, (map ? map->count : 0) + screws, sizeof *system->interval);
     for (size_t k = 0; k < screws; k++) { /* first, so that later intervals of the user replace these */
-        const nh_screw *screw = &s->chain->screw[k];
+        const nh_screw *screw = &system->chain->screw[k];
         if (screw->coordinate < 0 || screw->low == screw->high) continue;
-        s->interval[s->intervals++] = (nh_interval){s->coordinate[screw->coordinate].q, screw->low, screw->high};
+        system->interval[system->intervals++] =
+            (nh_interval){system->coordinate[screw->coordinate].q, screw->low, screw->high};
     }
     if (!map) return true;
     if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a domain {x: [low, high], ...}", r->error)) return false;
     for (size_t i = 0; i < map->count; i++) {
         double range[2];
-        nh_interval *box = &s->interval[s->intervals];
+        nh_interval *box = &system->interval[system->intervals];
         if (!box_symbol(r, map->key[i], &box->symbol)) return false;
         if (!nh_deck_range(r->deck, map->item[i], map->key[i]->text, range, r->error)) return false;
         box->low = range[0];
         box->high = range[1];
-        s->intervals++;
+        system->intervals++;
     }
     return true;
 }
 
 static bool read_field(nh_system_reader *r, const nh_deck_node *map, nh_ex *component)
 {
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (!nh_deck_is(r->deck, map, NH_DECK_MAP, "a field {coordinate: component, ...}", r->error)) return false;
-    for (size_t i = 0; i < s->coordinates; i++) component[i] = nh_int(s->dag, 0);
+    for (size_t i = 0; i < system->coordinates; i++) component[i] = nh_int(system->dag, 0);
     for (size_t i = 0; i < map->count; i++) {
-        long index = nh_system_coordinate(s, map->key[i]->text);
+        long index = nh_system_coordinate(system, map->key[i]->text);
         if (index < 0) {
             nh_deck_fail(r->deck, map->key[i], 0, r->error, "`%s` is not a coordinate", map->key[i]->text);
-            return nh_system_hint_coordinates(s, map->key[i]->text, r->error);
+            return nh_system_hint_coordinates(system, map->key[i]->text, r->error);
         }
         if (!nh_deck_is(r->deck, map->item[i], NH_DECK_SCALAR, "an expression", r->error)) return false;
-        if (!nh_system_read_expression(s, r->deck, map->item[i], 0, NH_NO_VELOCITIES | NH_NO_QUASI, 0, NULL, NULL,
+        if (!nh_system_read_expression(system, r->deck, map->item[i], 0, NH_NO_VELOCITIES | NH_NO_QUASI, 0, NULL, NULL,
                                        &component[index], r->error))
             return false;
     }
@@ -305,14 +309,14 @@ static bool read_field(nh_system_reader *r, const nh_deck_node *map, nh_ex *comp
 /* symmetry: generators of a group, each a map from coordinates to components. */
 bool nh_system_read_symmetry(nh_system_reader *r)
 {
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     const nh_deck_node *list;
     size_t n;
     if (!nh_system_list_of(r, r->root, "symmetry", &list, &n)) return false;
-    s->symmetry = nh_system_take(r, n * s->coordinates, sizeof *s->symmetry);
+    system->symmetry = nh_system_take(r, n * system->coordinates, sizeof *system->symmetry);
     for (size_t i = 0; i < n; i++)
-        if (!read_field(r, list->item[i], s->symmetry + i * s->coordinates)) return false;
-    s->symmetries = n;
+        if (!read_field(r, list->item[i], system->symmetry + i * system->coordinates)) return false;
+    system->symmetries = n;
     return true;
 }
 
@@ -327,12 +331,13 @@ bool nh_system_read_drawing(nh_system_reader *r)
 {
     const nh_deck_node *list;
     size_t n;
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (!nh_system_list_of(r, r->root, "draw", &list, &n)) return false;
-    s->shape = nh_system_take(r, n, sizeof *s->shape);
+    system->shape = nh_system_take(r, n, sizeof *system->shape);
     for (size_t i = 0; i < n; i++)
-        if (!nh_shape_read(r->deck, list->item[i], s->dag, shape_expression, r, &s->shape[i], r->error)) return false;
-    s->shapes = n;
+        if (!nh_shape_read(r->deck, list->item[i], system->dag, shape_expression, r, &system->shape[i], r->error))
+            return false;
+    system->shapes = n;
     return true;
 }
 
@@ -382,10 +387,11 @@ bool nh_system_read_known(nh_system_reader *r)
 {
     static const char *const keys[] = {"currents", "not_conserved", "motions"};
     const nh_deck_node *known = nh_deck_get(r->root, "known");
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (!known) return true;
     if (!nh_deck_is(r->deck, known, NH_DECK_MAP, "known", r->error)) return false;
     return nh_deck_only(r->deck, known, keys, 3, r->error) &&
-           read_named_list(r, known, "currents", &s->current, &s->currents) &&
-           read_named_list(r, known, "not_conserved", &s->trap, &s->not_conserved) && nh_system_check_motions(r, known);
+           read_named_list(r, known, "currents", &system->current, &system->currents) &&
+           read_named_list(r, known, "not_conserved", &system->trap, &system->not_conserved) &&
+           nh_system_check_motions(r, known);
 }

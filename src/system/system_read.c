@@ -43,7 +43,7 @@ bool nh_system_text_of(reader *r, const nh_deck_node *map, const char *key, cons
 /* Is `name` free and well formed? */
 bool nh_system_new_name(reader *r, const nh_deck_node *node)
 {
-    const nh_system *s = r->system;
+    const nh_system *system = r->system;
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a name", r->error)) return false;
     const char *name = node->text;
     if (!nh_is_name(name)) {
@@ -56,10 +56,10 @@ bool nh_system_new_name(reader *r, const nh_deck_node *node)
     }
     nh_ex taken;
     size_t function;
-    if (nh_symbol_find(s->dag, name, &taken) || nh_declared_find(s->dag, name, &function))
+    if (nh_symbol_find(system->dag, name, &taken) || nh_declared_find(system->dag, name, &function))
         return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", name);
-    for (size_t i = 0; i < s->definitions; i++)
-        if (!strcmp(s->definition[i].name, name))
+    for (size_t i = 0; i < system->definitions; i++)
+        if (!strcmp(system->definition[i].name, name))
             return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is declared twice", name);
     return true;
 }
@@ -81,11 +81,11 @@ static bool read_parameters(reader *r)
 {
     static const char *const keys[] = {"name", "value", "unit", "doc", "input"};
     const nh_deck_node *list = nh_deck_get(r->root, "parameters");
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (list) list = nh_deck_named(r->deck, "value", list);
     if (list && !nh_deck_is(r->deck, list, NH_DECK_LIST, "parameters", r->error)) return false;
     size_t n = list ? list->count : 0;
-    s->parameter = nh_system_take(r, n, sizeof *s->parameter);
+    system->parameter = nh_system_take(r, n, sizeof *system->parameter);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *item = list->item[i];
         bool name_alone = item->kind == NH_DECK_SCALAR && nh_is_name(item->text);
@@ -95,7 +95,7 @@ static bool read_parameters(reader *r)
         const nh_deck_node *name = nh_deck_get(item, "name"), *value = nh_deck_get(item, "value");
         if (!name) return nh_deck_fail(r->deck, item, 0, r->error, "this parameter has no `name`");
         if (!nh_system_new_name(r, name)) return false;
-        nh_parameter *p = &s->parameter[i];
+        nh_parameter *p = &system->parameter[i];
         *p = (nh_parameter){.name = name->text};
         if (!read_unit(r, item, &p->unit) || !nh_system_text_of(r, item, "doc", "", &p->doc) ||
             !nh_system_truth_of(r, item, "input", "an input may change with time: `nhsym export` makes it an argument",
@@ -104,8 +104,8 @@ static bool read_parameters(reader *r)
         if (!value) return nh_deck_fail(r->deck, item, 0, r->error, "the parameter `%s` has no `value`", p->name);
         if (!nh_deck_number(r->deck, value, "the value of a parameter", &p->value, r->error))
             return nh_unit_hint(value->text, r->error);
-        p->symbol = nh_symbol(s->dag, p->name);
-        s->parameters = i + 1;
+        p->symbol = nh_symbol(system->dag, p->name);
+        system->parameters = i + 1;
     }
     return true;
 }
@@ -136,8 +136,8 @@ static bool read_coordinate(reader *r, const nh_deck_node *item)
 {
     static const char *const keys[] = {"name", "type", "doc", "unit"}, *const turn_keys[] = {"name", "type", "doc",
                                                                                              "velocities", "frame"};
-    nh_system *s = r->system;
-    nh_coordinate *c = &s->coordinate[s->coordinates];
+    nh_system *system = r->system;
+    nh_coordinate *c = &system->coordinate[system->coordinates];
     const nh_deck_node *name = item, *type;
     *c = (nh_coordinate){.unit = "", .doc = "", .type = NH_PLAIN};
     if (item->kind != NH_DECK_SCALAR) {
@@ -154,8 +154,8 @@ static bool read_coordinate(reader *r, const nh_deck_node *item)
     }
     if (!nh_system_new_name(r, name)) return false;
     c->name = name->text;
-    c->q = nh_symbol(s->dag, c->name);
-    s->coordinates++;
+    c->q = nh_symbol(system->dag, c->name);
+    system->coordinates++;
     return true;
 }
 
@@ -170,15 +170,15 @@ static bool read_coordinates(reader *r)
     enum { most_coordinates = 100 };
     const nh_deck_node *list = nh_deck_get(r->root, "coordinates");
     size_t n = list ? list->count : 0;
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (list && list->kind != NH_DECK_SCALAR) list = nh_deck_named(r->deck, "type", list);
     else if (!nh_system_list_of(r, r->root, "coordinates", &list, &n)) return false;
-    if (n + (s->chain ? s->chain->screws : 0) == 0) {
+    if (n + (system->chain ? system->chain->screws : 0) == 0) {
         nh_deck_fail(r->deck, list ? list : NULL, 0, r->error, "a system needs at least one coordinate");
-        if (s->chain)
+        if (system->chain)
             return nh_error_hint(r->error, "every joint is fixed: --base floating (or `base: floating`) lets the body "
                                            "that carries all others move");
-        const char *lines = list ? NULL : nh_ordinary_declare_all(r->deck, is_symbol, s->dag);
+        const char *lines = list ? NULL : nh_ordinary_declare_all(r->deck, is_symbol, system->dag);
         if (lines) return nh_error_hint(r->error, "%s", lines);
         return nh_error_hint(r->error, "for example: coordinates: [{name: x, type: length}, {name: phi, type: angle}]");
     }
@@ -188,19 +188,20 @@ static bool read_coordinates(reader *r)
         return nh_error_hint(
             r->error, "the program inverts matrices of this size symbolically: remove coordinates that do not move");
     }
-    size_t most = 3 * n + (s->chain ? s->chain->screws : 0);
-    s->coordinate = nh_system_take(r, most, sizeof *s->coordinate);
-    s->orientation = nh_system_take(r, most, sizeof *s->orientation);
+    size_t most = 3 * n + (system->chain ? system->chain->screws : 0);
+    system->coordinate = nh_system_take(r, most, sizeof *system->coordinate);
+    system->orientation = nh_system_take(r, most, sizeof *system->orientation);
     for (size_t i = 0; i < n; i++)
         if (!read_coordinate(r, list->item[i])) return false;
     if (!nh_system_read_joint_coordinates(r)) return false;
-    if (s->coordinates == 0)
+    if (system->coordinates == 0)
         return nh_deck_fail(r->deck, NULL, 0, r->error,
                             "no joint of this system has a coordinate, and `coordinates:` declares none");
     /* after all coordinates: symbols are printed in the order of declaration */
-    for (size_t i = 0; i < s->coordinates; i++)
-        s->coordinate[i].v = nh_symbol(s->dag, nh_arena_printf(s->arena, "%s'", s->coordinate[i].name));
-    nh_orientation_build_all(s);
+    for (size_t i = 0; i < system->coordinates; i++)
+        system->coordinate[i].v =
+            nh_symbol(system->dag, nh_arena_printf(system->arena, "%s'", system->coordinate[i].name));
+    nh_orientation_build_all(system);
     return true;
 }
 
@@ -209,15 +210,15 @@ static bool read_quasi_names(reader *r)
 {
     const nh_deck_node *chart = nh_deck_get(r->root, "velocities"), *list;
     size_t n;
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (!chart) return true;
     if (!nh_deck_is(r->deck, chart, NH_DECK_MAP, "velocities {names: [...], map: [...]}", r->error)) return false;
     if (!nh_system_list_of(r, chart, "names", &list, &n)) return false;
-    s->quasi_velocity = nh_system_take(r, n, sizeof *s->quasi_velocity);
+    system->quasi_velocity = nh_system_take(r, n, sizeof *system->quasi_velocity);
     for (size_t i = 0; i < n; i++) {
         if (!nh_system_new_name(r, list->item[i])) return false;
-        s->quasi_velocity[i] = nh_symbol(s->dag, list->item[i]->text);
-        s->quasi = i + 1;
+        system->quasi_velocity[i] = nh_symbol(system->dag, list->item[i]->text);
+        system->quasi = i + 1;
     }
     return true;
 }
@@ -267,21 +268,22 @@ static bool waits(const reader *r, const char *text, size_t waiting, const char 
 
 static bool read_definition(reader *r, const nh_deck_node *node, const char *name_text)
 {
-    nh_system *s = r->system;
-    nh_named *d = &s->definition[s->definitions];
+    nh_system *system = r->system;
+    nh_named *d = &system->definition[system->definitions];
     bool entry = node->kind == NH_DECK_MAP;
     nh_deck_node name = entry ? *node->key[0] : *node;
     name.text = d->name = name_text;
     if (!nh_system_new_name(r, &name)) return false;
     const nh_deck_node *value = node;
     size_t skip = right_side(&value);
-    if (!nh_system_read_written(s, r->deck, value, skip, NULL, &d->value, &d->text, r->error)) return false;
+    if (!nh_system_read_written(system, r->deck, value, skip, NULL, &d->value, &d->text, r->error)) return false;
     bool as_written = !entry && d->text >= node->text && d->text <= node->text + strlen(node->text);
-    d->text = as_written ? node->text : nh_arena_printf(s->arena, "%s = %s", name_text, d->text);
-    nh_named *framed = &s->framed_definition[s->definitions];
+    d->text = as_written ? node->text : nh_arena_printf(system->arena, "%s = %s", name_text, d->text);
+    nh_named *framed = &system->framed_definition[system->definitions];
     *framed = *d;
-    if (s->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value)) return false;
-    s->definitions++;
+    if (system->orientations && !nh_system_read_right_side(r, node, NH_NO_QUASI | NH_FRAMED, &framed->value))
+        return false;
+    system->definitions++;
     return true;
 }
 
@@ -291,21 +293,21 @@ static bool read_definitions(reader *r, bool late)
 {
     const nh_deck_node *list, *points = nh_deck_get(r->root, "points");
     size_t n, waiting = 0;
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (!nh_system_list_of(r, r->root, "definitions", &list, &n)) return false;
     const char **wait = nh_system_take(r, n, sizeof *wait);
-    const nh_named *fixed = s->definition;
-    size_t most = s->definitions + n + 3 * (points ? points->count : 0);
-    if (!late) s->definition = nh_system_take(r, most, sizeof *fixed);
-    if (!late && s->definitions) memcpy(s->definition, fixed, s->definitions * sizeof *fixed);
-    if (!late) s->framed_definition = nh_system_take(r, most, sizeof *fixed);
-    if (!late && s->definitions) memcpy(s->framed_definition, fixed, s->definitions * sizeof *fixed);
+    const nh_named *fixed = system->definition;
+    size_t most = system->definitions + n + 3 * (points ? points->count : 0);
+    if (!late) system->definition = nh_system_take(r, most, sizeof *fixed);
+    if (!late && system->definitions) memcpy(system->definition, fixed, system->definitions * sizeof *fixed);
+    if (!late) system->framed_definition = nh_system_take(r, most, sizeof *fixed);
+    if (!late && system->definitions) memcpy(system->framed_definition, fixed, system->definitions * sizeof *fixed);
     for (size_t i = 0; i < n; i++) {
         const char *name;
         if (!nh_system_assignment_name(r, list->item[i], "a definition `name = expression`", &name)) return false;
         const nh_deck_node *value = list->item[i];
         size_t skip = right_side(&value);
-        bool waited = s->chain && points && waits(r, value->text + skip, waiting, wait);
+        bool waited = system->chain && points && waits(r, value->text + skip, waiting, wait);
         if (waited) wait[waiting++] = name;
         if (waited == late && !read_definition(r, list->item[i], name)) return false;
     }
@@ -315,17 +317,17 @@ static bool read_definitions(reader *r, bool late)
 static bool read_lagrangian(reader *r)
 {
     const nh_deck_node *node = nh_deck_get(r->root, "lagrangian");
-    nh_system *s = r->system;
-    if (s->chain) {
-        s->lagrangian = s->framed_of = nh_sub(s->dag, s->chain->kinetic, s->chain->potential);
-        s->framed = nh_sub(s->dag, s->chain->framed, s->chain->potential);
+    nh_system *system = r->system;
+    if (system->chain) {
+        system->lagrangian = system->framed_of = nh_sub(system->dag, system->chain->kinetic, system->chain->potential);
+        system->framed = nh_sub(system->dag, system->chain->framed, system->chain->potential);
     }
-    if (!node && s->chain) return true;
+    if (!node && system->chain) return true;
     if (!node) {
         const char *energy[] = {"T", "V", "U"};
         bool given[3] = {false};
-        for (size_t i = 0; i < 3 * s->definitions; i++)
-            given[i % 3] |= !strcmp(s->definition[i / 3].name, energy[i % 3]);
+        for (size_t i = 0; i < 3 * system->definitions; i++)
+            given[i % 3] |= !strcmp(system->definition[i / 3].name, energy[i % 3]);
         nh_deck_fail(r->deck, NULL, 0, r->error, "this system has no `lagrangian`");
         if (given[0] && (given[1] || given[2]))
             return nh_error_hint(r->error, "lagrangian: T%s%s", given[1] ? " - V" : "", given[2] ? " - U" : "");
@@ -333,24 +335,26 @@ static bool read_lagrangian(reader *r)
     }
     if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the lagrangian", r->error)) return false;
     nh_ex written;
-    if (!nh_system_read_expression(s, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, &written, r->error)) return false;
-    s->lagrangian = s->framed_of = s->chain ? nh_add(s->dag, s->lagrangian, written) : written;
-    if (!s->orientations) return true;
+    if (!nh_system_read_expression(system, r->deck, node, 0, NH_NO_QUASI, 0, NULL, NULL, &written, r->error))
+        return false;
+    system->lagrangian = system->framed_of = system->chain ? nh_add(system->dag, system->lagrangian, written) : written;
+    if (!system->orientations) return true;
     unsigned how = NH_NO_QUASI | NH_FRAMED;
-    if (!nh_system_read_expression(s, r->deck, node, 0, how, 0, NULL, NULL, &written, r->error)) return false;
-    written = nh_orientation_framed(s, written);
-    s->framed = s->chain ? nh_add(s->dag, s->framed, written) : written;
+    if (!nh_system_read_expression(system, r->deck, node, 0, how, 0, NULL, NULL, &written, r->error)) return false;
+    written = nh_orientation_framed(system, written);
+    system->framed = system->chain ? nh_add(system->dag, system->framed, written) : written;
     return true;
 }
 
 /* f(t, q) = 0 holds along a motion that starts on it iff its time derivative vanishes. */
-static void differentiate_position(nh_system *s, nh_constraint *c)
+static void differentiate_position(nh_system *system, nh_constraint *c)
 {
-    nh_ex f = nh_sub(s->dag, c->lhs, c->rhs), rate = nh_diff(s->dag, f, s->t);
-    for (size_t i = 0; i < s->coordinates; i++)
-        rate = nh_add(s->dag, rate, nh_mul(s->dag, nh_diff(s->dag, f, s->coordinate[i].q), s->coordinate[i].v));
+    nh_ex f = nh_sub(system->dag, c->lhs, c->rhs), rate = nh_diff(system->dag, f, system->t);
+    for (size_t i = 0; i < system->coordinates; i++)
+        rate = nh_add(system->dag, rate,
+                      nh_mul(system->dag, nh_diff(system->dag, f, system->coordinate[i].q), system->coordinate[i].v));
     c->lhs = rate;
-    c->rhs = nh_int(s->dag, 0);
+    c->rhs = nh_int(system->dag, 0);
     c->position = true;
     c->level = f;
 }
@@ -358,11 +362,12 @@ static void differentiate_position(nh_system *s, nh_constraint *c)
 /* The constraint in the symbols of angular velocities. */
 static bool read_framed(reader *r, const nh_deck_node *node, nh_constraint *c, bool moving)
 {
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     nh_ex lhs = c->lhs, rhs = c->rhs;
     unsigned how = NH_NO_QUASI | NH_FRAMED;
-    if (moving && !nh_system_read_expression(s, r->deck, node, 0, how, 0, NULL, &lhs, &rhs, r->error)) return false;
-    c->framed = nh_orientation_framed(s, nh_sub(s->dag, lhs, rhs));
+    if (moving && !nh_system_read_expression(system, r->deck, node, 0, how, 0, NULL, &lhs, &rhs, r->error))
+        return false;
+    c->framed = nh_orientation_framed(system, nh_sub(system->dag, lhs, rhs));
     return true;
 }
 
@@ -370,30 +375,31 @@ static bool read_constraints(reader *r)
 {
     const nh_deck_node *list;
     size_t n;
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (!nh_system_list_of(r, r->root, "constraints", &list, &n)) return false;
-    s->constraint = nh_system_take(r, n + nh_system_most_wheel_constraints(s), sizeof *s->constraint);
+    system->constraint = nh_system_take(r, n + nh_system_most_wheel_constraints(system), sizeof *system->constraint);
     nh_system_add_wheel_constraints(r);
     for (size_t i = 0; i < n; i++) {
-        nh_constraint *c = &s->constraint[s->constraints];
+        nh_constraint *c = &system->constraint[system->constraints];
         const nh_deck_node *node = list->item[i];
         if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "a constraint `... = ...`", r->error)) return false;
         *c = (nh_constraint){.text = node->text, .node = node};
-        if (!nh_system_read_written(s, r->deck, node, 0, &c->lhs, &c->rhs, &c->text, r->error)) return false;
-        nh_ex f = nh_sub(s->dag, c->lhs, c->rhs);
+        if (!nh_system_read_written(system, r->deck, node, 0, &c->lhs, &c->rhs, &c->text, r->error)) return false;
+        nh_ex f = nh_sub(system->dag, c->lhs, c->rhs);
         bool moving = false, placed = false;
-        for (size_t j = 0; j < s->coordinates; j++) {
-            moving |= nh_depends(s->dag, f, s->coordinate[j].v);
-            placed |= nh_depends(s->dag, f, s->coordinate[j].q);
+        for (size_t j = 0; j < system->coordinates; j++) {
+            moving |= nh_depends(system->dag, f, system->coordinate[j].v);
+            placed |= nh_depends(system->dag, f, system->coordinate[j].q);
         }
         if (!moving && !placed) {
             nh_deck_fail(r->deck, node, 0, r->error, "this constraint contains no coordinate and no velocity");
-            return nh_error_hint(r->error, nh_is_zero(s->dag, f) ? "this equation always holds: remove it"
-                                                                 : "this equation never holds: is a name missing?");
+            return nh_error_hint(r->error, nh_is_zero(system->dag, f)
+                                               ? "this equation always holds: remove it"
+                                               : "this equation never holds: is a name missing?");
         }
-        if (!moving) differentiate_position(s, c);
-        if (s->orientations && !read_framed(r, node, c, moving)) return false;
-        s->constraints++;
+        if (!moving) differentiate_position(system, c);
+        if (system->orientations && !read_framed(r, node, c, moving)) return false;
+        system->constraints++;
     }
     return true;
 }
@@ -402,28 +408,28 @@ static bool read_dependent(reader *r)
 {
     const nh_deck_node *list;
     size_t n;
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (!nh_system_list_of(r, r->root, "dependent", &list, &n)) return false;
-    if (n && n != s->constraints)
+    if (n && n != system->constraints)
         return nh_deck_fail(r->deck, list, 0, r->error,
-                            "there must be as many dependent velocities as constraints: %zu, not %zu", s->constraints,
-                            n);
-    s->dependent = nh_system_take(r, n, sizeof *s->dependent);
+                            "there must be as many dependent velocities as constraints: %zu, not %zu",
+                            system->constraints, n);
+    system->dependent = nh_system_take(r, n, sizeof *system->dependent);
     for (size_t i = 0; i < n; i++) {
         const nh_deck_node *node = list->item[i];
         if (!nh_deck_is(r->deck, node, NH_DECK_SCALAR, "the name of a coordinate", r->error)) return false;
         size_t length = strcspn(node->text, "'");
-        long index = nh_system_coordinate(s, nh_arena_strndup(s->arena, node->text, length));
+        long index = nh_system_coordinate(system, nh_arena_strndup(system->arena, node->text, length));
         if (index < 0) {
             nh_deck_fail(r->deck, node, 0, r->error, "`%s` is not a coordinate", node->text);
-            return nh_system_hint_coordinates(s, node->text, r->error);
+            return nh_system_hint_coordinates(system, node->text, r->error);
         }
         for (size_t j = 0; j < i; j++)
-            if (s->dependent[j] == (size_t)index)
+            if (system->dependent[j] == (size_t)index)
                 return nh_deck_fail(r->deck, node, 0, r->error, "`%s` is named twice", node->text);
-        s->dependent[i] = (size_t)index;
+        system->dependent[i] = (size_t)index;
     }
-    s->dependents = n;
+    system->dependents = n;
     return true;
 }
 
@@ -438,18 +444,19 @@ static const char *usual_name(reader *r)
 
 static bool read_all(reader *r, size_t settings, const nh_setting *setting)
 {
-    nh_system *s = r->system;
+    nh_system *system = r->system;
     if (!nh_deck_is(r->deck, r->root, NH_DECK_MAP, "a system file (name: ..., coordinates: ..., lagrangian: ...)",
                     r->error))
         return false;
     if (!nh_ordinary_only_known(r->deck, r->error)) return false;
     const char *doc; /* text for readers of the file */
-    if (!nh_system_text_of(r, r->root, "name", usual_name(r), &s->name) ||
-        !nh_system_text_of(r, r->root, "title", s->name, &s->title))
+    if (!nh_system_text_of(r, r->root, "name", usual_name(r), &system->name) ||
+        !nh_system_text_of(r, r->root, "title", system->name, &system->title))
         return false;
-    if (!nh_system_text_of(r, r->root, "source", "", &s->source) || !nh_system_text_of(r, r->root, "doc", "", &doc))
+    if (!nh_system_text_of(r, r->root, "source", "", &system->source) ||
+        !nh_system_text_of(r, r->root, "doc", "", &doc))
         return false;
-    s->t = nh_symbol(s->dag, "t");
+    system->t = nh_symbol(system->dag, "t");
     if (!read_parameters(r) || !nh_system_apply_settings(r, settings, setting)) return false;
     return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) &&
            nh_system_read_functions(r, settings, setting) && read_definitions(r, false) && nh_system_read_chain(r) &&
@@ -458,7 +465,7 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
            nh_system_read_levels(r) && nh_system_read_symmetry(r) &&
            nh_system_read_drawing(r)
            /* claims about the whole system */
-           && (s->levels || (nh_system_read_known(r) && nh_system_read_robustness(r)));
+           && (system->levels || (nh_system_read_known(r) && nh_system_read_robustness(r)));
 }
 
 /* The deck, or NULL where it could not be completed. */
@@ -475,16 +482,16 @@ static nh_system *read_deck(nh_deck *deck, size_t settings, const nh_setting *se
 {
     if (!deck) return NULL;
     nh_arena *arena = nh_arena_create();
-    nh_system *s = nh_arena_alloc(arena, sizeof *s);
-    s->arena = arena;
-    s->deck = deck;
-    s->dag = nh_dag_create();
-    reader r = {.system = s, .deck = deck, .root = nh_deck_root(deck), .error = error};
+    nh_system *system = nh_arena_alloc(arena, sizeof *system);
+    system->arena = arena;
+    system->deck = deck;
+    system->dag = nh_dag_create();
+    reader r = {.system = system, .deck = deck, .root = nh_deck_root(deck), .error = error};
     if (read_all(&r, settings, setting) && nh_system_read_notes(&r)) {
-        nh_reach_walls(s);
-        return s;
+        nh_reach_walls(system);
+        return system;
     }
-    nh_system_free(s);
+    nh_system_free(system);
     return NULL;
 }
 
