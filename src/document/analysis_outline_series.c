@@ -56,7 +56,9 @@ static void coefficients(nh_pen *p, const nh_series *s, size_t from, size_t to)
     nh_text_clear(&heads);
     for (size_t k = 0; k <= s->degree; k++) {
         nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
-        nh_pen_cell(p, NH_PEN_ROW_HEAD, "%zu", k);
+        char degree[24];
+        snprintf(degree, sizeof degree, "%zu", k);
+        nh_pen_cell(p, NH_PEN_ROW_HEAD, "%s", degree); /* no number to be read with all its digits */
         for (size_t i = from; i < to; i++) nh_pen_cell(p, NH_PEN_CELL, "%.10g", s->coefficient[i * s->stride + k]);
         nh_pen_close(p, NH_PEN_ROW);
     }

@@ -167,6 +167,7 @@ void nh_linear_fields_search(nh_stage_solver *solver)
     bool constant = true;
     if (model->k || model->chart->quasi) return;
     for (size_t i = 0; i < model->n * model->n; i++) constant = constant && is_constant(model, model->M[i]);
+    if (constant && nh_linear_motion_is(solver)) return; /* the search of linear motion has all of them */
     nh_centre_of_mass *centre = nh_arena_alloc(result->arena, (model->m + 1) * sizeof *centre);
     nh_ex *force = nh_arena_alloc(result->arena, (model->m + 1) * sizeof *force);
     size_t centres = pulled_centres(model, (size_t)result->options.proof_terms, centre, force);

@@ -433,6 +433,14 @@ void nh_linear_motion_solve(linear *l)
     }
 }
 
+bool nh_linear_motion_is(nh_stage_solver *solver)
+{
+    bool is;
+    linear l = linear_of(solver, &is);
+    nh_linear_motion_clear(&l);
+    return is;
+}
+
 void nh_linear_motion_search(nh_stage_solver *solver)
 {
     bool is;

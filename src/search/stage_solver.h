@@ -64,6 +64,8 @@ bool nh_stage_solver_integral(const nh_stage_solver *solver, nh_ex variable, nh_
 void nh_rates_search(nh_stage_solver *solver);
 /* Systems, or blocks of coordinates, whose equations of motion are linear with constant coefficients. */
 void nh_linear_motion_search(nh_stage_solver *solver);
+/* Are all equations of motion of this kind? */
+bool nh_linear_motion_is(nh_stage_solver *solver);
 /* The same of functions of the coordinates that have such equations. */
 void nh_linear_motion_functions(nh_stage_solver *solver);
 /* Canonical momenta times 1 and positions, and centres of mass. */

@@ -114,6 +114,7 @@ static const row rows[] = {
     {"degree 2", FITTED, .stage = NH_STAGE_DEGREE_2},                     /* from here on columns by the hundred */
     {"weights", FITTED, .stage = NH_STAGE_WEIGHTS},                       /* Runge and Lenz */
     {"weight 4", FITTED, .stage = NH_STAGE_WEIGHT_4},                     /* Kovalevskaya, Toda, Calogero */
+    {"separation", FITTED, .stage = NH_STAGE_SEPARATION},                 /* Euler, Liouville */
     {"degree 2 in time", FITTED, .stage = NH_STAGE_TIME},                 /* Ermakov, Lewis */
     {"half angles", FITTED, .stage = NH_STAGE_HALF_ANGLES},               /* parabolic coordinates from polar ones */
     {"named functions", FITTED, nh_stage_solver_named, 0}, /* Bessel, Gauss, .. of one coordinate, or of t */

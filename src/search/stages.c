@@ -264,6 +264,8 @@ static const recipe stages[] = {
     [NH_STAGE_DEGREE_2] = {"total degree 2 times the system's own functions", stage_degree_2},
     [NH_STAGE_WEIGHTS] = {"quadratic forms times positions", stage_weights},
     [NH_STAGE_WEIGHT_4] = {"weighted degree 4 in the frame of the kinetic energy", nh_stage_weight_4},
+    [NH_STAGE_SEPARATION] = {"squares of velocities times positions of higher degree, energy and functions times lower",
+                             nh_stage_separation},
     [NH_STAGE_TIME] = {"squares of positions and velocities times functions of time", nh_stage_time},
     [NH_STAGE_HALF_ANGLES] = {"squares of the frame times lengths and half angles", nh_stage_half_angles},
     [NH_STAGE_RATIONAL] = {"quotients by the denominators of the Lagrangian", nh_stage_rational},

@@ -66,6 +66,9 @@ void nh_stage_weight_4(nh_family_list *families);
 void nh_stage_rational(nh_family_list *families);
 nh_expr_set nh_expr_set_quotients(const nh_family_list *families);
 
+/* Squares of velocities with coefficients of higher degree in the positions; the energy and functions with lower
+ * ones. */
+void nh_stage_separation(nh_family_list *families);
 /* Half angles: parabolic coordinates seen from polar ones. */
 void nh_stage_half_angles(nh_family_list *families);
 

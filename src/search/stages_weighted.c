@@ -1,4 +1,4 @@
-/* Stages for integrals of degree four in the velocities that are homogeneous with weights, as Kovalevskaya's. */
+/* Stages for integrals homogeneous with weights, as Kovalevskaya's; for separable systems; with half angles. */
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
@@ -52,6 +52,25 @@ void nh_stage_weight_4(nh_family_list *s)
     if (s->w->frames == s->o->n) nh_expr_set_put_all(&u, s->w->frames, s->w->frame);
     else nh_expr_set_put_all(&u, s->o->n, s->o->chart->w);
     weighted(s, &u, &f);
+}
+
+/* Integrals from separation of variables (Euler's two centres, Liouville's systems): squares of velocities with
+ * coefficients of higher degree in the positions, the energy and the system's functions with lower ones. */
+void nh_stage_separation(nh_family_list *s)
+{
+    nh_expr_set l = {0}, e = {0}, q = nh_expr_set_positions(s, false, false), f = nh_expr_set_functions(s, false);
+    bool few = s->w->positions <= 2;
+    if (s->w->positions > 3 || s->w->waves) return;
+    nh_expr_set_put_all(&l, s->o->n, s->o->chart->w);
+    nh_expr_set v = nh_expr_set_squares(s, &l);
+    nh_expr_set_put(&e, s->o->E);
+    nh_expr_set_put_all(&e, f.n, f.e);
+    nh_family_list_add(
+        s, nh_family_list_product(
+               s, 2, (nh_family[]){nh_family_list_terms(s, &v), nh_family_list_polynomial(s, &q, few ? 4 : 2)}));
+    nh_family_list_add(s, nh_family_list_product(
+                              s, 2, (nh_family[]){nh_family_list_terms(s, &e), nh_family_list_polynomial(s, &q, 2)}));
+    nh_family_list_add(s, nh_family_list_polynomial(s, &q, 4));
 }
 
 /* Parabolic coordinates are r cos^2(q/2), r sin^2(q/2): integrals that separate in them are quadratic in the frame
