@@ -24,55 +24,53 @@ static bool is_constant(const nh_model *model, nh_ex e)
     return !nh_depends(model->dag, e, model->system->t);
 }
 
-/* dp_s/dt = Q, a constant: p_s - Q t; with p_s = dF/dt also F - t p_s + Q t^2/2. */
-static void centres_of_mass(nh_stage_solver *solver, size_t centres, const nh_centre_of_mass *centre,
-                            const nh_ex *force)
+/* Of the whole along a direction: dF/dt = P, dP/dt = Q is constant, and F/mass is the place of the centre of mass. */
+typedef struct {
+    nh_ex F, P, Q, mass; /* mass: 0 where it is not needed */
+} centre;
+
+/* P - Q t and F - t P + Q t^2/2. */
+static void centres_of_mass(nh_stage_solver *solver, size_t centres, const centre *c)
 {
-    const nh_model *model = solver->r->model;
-    nh_dag *d = model->dag;
-    nh_ex t = model->system->t, half = nh_ratio(d, 1, 2);
+    nh_dag *d = solver->r->model->dag;
+    nh_ex t = solver->r->model->system->t, half = nh_ratio(d, 1, 2);
     for (size_t i = 0; i < centres && !nh_stage_solver_done(solver); i++) {
-        nh_ex Q = force[i], P = model->p[centre[i].s];
-        if (!nh_is_zero(d, Q))
-            nh_stage_solver_certify(solver, nh_sub(d, P, nh_mul(d, Q, t)), "a momentum and its force");
+        nh_ex momentum = nh_sub(d, c[i].P, nh_mul(d, c[i].Q, t)), F = nh_sub(d, c[i].F, nh_mul(d, t, c[i].P));
+        if (!nh_is_zero(d, c[i].Q)) nh_stage_solver_certify(solver, momentum, "a momentum and its force");
         if (nh_stage_solver_done(solver)) return;
-        nh_ex F = nh_sub(d, centre[i].F, nh_mul(d, t, P));
-        nh_stage_solver_certify(solver, nh_add(d, F, nh_product(d, 3, (nh_ex[]){half, Q, nh_powi(d, t, 2)})),
-                                "a centre of mass");
+        F = nh_add(d, F, nh_product(d, 3, (nh_ex[]){half, c[i].Q, nh_powi(d, t, 2)}));
+        nh_stage_solver_certify(solver, F, "a centre of mass");
     }
 }
 
-/* The centres of mass along which the force is a constant, and it. */
-static size_t pulled_centres(const nh_model *model, size_t max_terms, nh_centre_of_mass *centre, nh_ex *force)
+/* Those along one coordinate, by geometry (integrals/centre_of_mass.h); returns their number, at most m. */
+static size_t pulled_centres(const nh_model *model, size_t max_terms, centre *out)
 {
     nh_dag *d = model->dag;
-    size_t centres = nh_centre_of_mass_find(model, max_terms, centre), count = 0;
+    nh_centre_of_mass *found = nh_alloc_array(model->m + 1, sizeof *found);
+    size_t centres = nh_centre_of_mass_find(model, max_terms, found), count = 0;
     for (size_t i = 0; i < centres; i++) {
-        size_t s = centre[i].s;
+        size_t s = found[i].s;
         nh_ex Q = nh_simplify_short(d, nh_diff(d, model->system->lagrangian, model->system->coordinate[s].q), 0);
         if (model->system->has_forces) Q = nh_add(d, Q, model->system->force[s]);
         bool constant = is_constant(model, Q);
         for (size_t r = 0; r < model->m; r++) constant = constant && !nh_depends(d, Q, model->system->coordinate[r].v);
-        if (!constant) continue;
-        centre[count] = centre[i];
-        force[count++] = Q;
+        if (constant) out[count++] = (centre){found[i].F, model->p[s], Q, found[i].mass};
     }
+    nh_free(found);
     return count;
 }
 
-/* F_i p_j/M of two centres: with them a turn is one about the centre of mass, which a constant force leaves alone.
+/* F_i P_j/M of two centres: with them a turn is one about the centre of mass, which a constant force leaves alone.
  * Without a force they are products of currents. */
-static nh_expr_set turns_about_centres(const nh_model *model, size_t centres, const nh_centre_of_mass *centre,
-                                       const nh_ex *force)
+static nh_expr_set turns_about_centres(const nh_model *model, size_t centres, const centre *c)
 {
     nh_expr_set all = {0};
     bool some = false;
-    for (size_t i = 0; i < centres; i++) some |= !nh_is_zero(model->dag, force[i]);
+    for (size_t i = 0; i < centres; i++) some |= !nh_is_zero(model->dag, c[i].Q);
     for (size_t i = 0; i < centres && some; i++)
-        for (size_t j = 0; j < centres; j++) {
-            nh_ex word = nh_mul(model->dag, centre[i].F, model->p[centre[j].s]);
-            if (j != i) nh_expr_set_put(&all, nh_div(model->dag, word, centre[i].mass));
-        }
+        for (size_t j = 0; j < centres; j++)
+            if (j != i) nh_expr_set_put(&all, nh_div(model->dag, nh_mul(model->dag, c[i].F, c[j].P), c[i].mass));
     return all;
 }
 
@@ -121,43 +119,43 @@ static void turns_in_space(nh_stage_solver *solver, nh_family_list *families, si
     nh_free(angle);
 }
 
-/* F - t P + c t^2/2 of P = g_s v^s + c t, a current with constant g and c, where F = g_s q^s. */
-static void boost(nh_stage_solver *solver, nh_ex P)
+/* Of a current P - Q t with P = g_s v^s, g and Q constant: F = g_s q^s.  False: it is no such current. */
+static bool centre_of(const nh_model *model, nh_ex current, centre *out)
 {
-    const nh_model *model = solver->r->model;
     nh_dag *d = model->dag;
-    nh_ex t = model->system->t, F = nh_int(d, 0), rest = P, c = nh_simplify_short(d, nh_diff(d, P, t), 0);
-    bool linear = nh_model_is_constant(model, c);
-    for (size_t s = 0; s < model->m && linear; s++) {
+    nh_ex Q = nh_neg(d, nh_simplify_short(d, nh_diff(d, current, model->system->t), 0)), zero = nh_int(d, 0);
+    *out = (centre){zero, zero, Q, zero};
+    if (!nh_model_is_constant(model, Q)) return false;
+    for (size_t s = 0; s < model->m; s++) {
         const nh_coordinate *q = &model->system->coordinate[s];
-        nh_ex g = nh_simplify_short(d, nh_diff(d, P, q->v), 0);
-        linear = nh_model_is_constant(model, g);
-        F = nh_add(d, F, nh_mul(d, g, q->q));
-        rest = nh_sub(d, rest, nh_mul(d, g, q->v));
+        nh_ex g = nh_simplify_short(d, nh_diff(d, current, q->v), 0);
+        if (!nh_model_is_constant(model, g)) return false;
+        out->F = nh_add(d, out->F, nh_mul(d, g, q->q));
+        out->P = nh_add(d, out->P, nh_mul(d, g, q->v));
     }
-    if (!linear || nh_is_zero(d, F) || !nh_is_zero(d, nh_sub(d, rest, nh_mul(d, c, t)))) return;
-    F = nh_sub(d, F, nh_mul(d, t, P));
-    F = nh_add(d, F, nh_product(d, 3, (nh_ex[]){nh_ratio(d, 1, 2), c, nh_powi(d, t, 2)}));
-    nh_stage_solver_certify(solver, nh_simplify_short(d, F, 0), "a centre of mass");
+    nh_ex rest = nh_sub(d, nh_sub(d, current, out->P), nh_neg(d, nh_mul(d, Q, model->system->t)));
+    return !nh_is_zero(d, out->F) && nh_is_zero(d, rest);
 }
 
-/* Of a constant kinetic energy: the sums of momenta that a constant force changes, and their centres of mass.  They
- * come first: turns of the whole about its centre of mass are products of them. */
-static void boosts(nh_stage_solver *solver, nh_family_list *families)
+/* Of a constant kinetic energy: the sums of momenta that a constant force changes.  They and their centres of mass come
+ * first: turns of the whole about its centre of mass are products of them.  Returns their number, at most 2 m. */
+static size_t moved_centres(nh_stage_solver *solver, nh_family_list *families, centre *out)
 {
     const nh_analysis *result = solver->r;
     const nh_model *model = result->model;
     nh_expr_set linear_in_t = {0};
+    size_t count = 0;
     nh_expr_set_put_all(&linear_in_t, model->m, model->p);
     nh_expr_set_put(&linear_in_t, model->system->t);
     nh_family momenta = nh_family_list_terms(families, &linear_in_t);
     nh_stage_solver_stage(solver, "canonical momenta", 1, &momenta);
-    for (size_t k = 0, count = result->count; k < count && !nh_stage_solver_done(solver); k++)
-        if (result->found[k].proof.proved) boost(solver, result->found[k].phi);
+    for (size_t k = 0; k < result->count && count < model->m; k++)
+        count += result->found[k].proof.proved && centre_of(model, result->found[k].phi, &out[count]);
     /* one that is a function of the energy and the others */
-    for (size_t s = 0; s < model->m && !nh_stage_solver_done(solver); s++)
+    for (size_t s = 0; s < model->m; s++)
         if (nh_is_zero(model->dag, nh_simplify_short(model->dag, nh_model_gamma(model, model->p[s]), 0)))
-            boost(solver, model->p[s]);
+            count += centre_of(model, model->p[s], &out[count]);
+    return count;
 }
 
 void nh_linear_fields_search(nh_stage_solver *solver)
@@ -168,20 +166,21 @@ void nh_linear_fields_search(nh_stage_solver *solver)
     if (model->k || model->chart->quasi) return;
     for (size_t i = 0; i < model->n * model->n; i++) constant = constant && is_constant(model, model->M[i]);
     if (constant && nh_linear_motion_is(solver)) return; /* the search of linear motion has all of them */
-    nh_centre_of_mass *centre = nh_arena_alloc(result->arena, (model->m + 1) * sizeof *centre);
-    nh_ex *force = nh_arena_alloc(result->arena, (model->m + 1) * sizeof *force);
-    size_t centres = pulled_centres(model, (size_t)result->options.proof_terms, centre, force);
     nh_family_list families = {result->arena, model, &solver->words, NULL, 0};
+    centre *c = nh_arena_alloc(result->arena, (2 * model->m + 1) * sizeof *c);
+    size_t centres =
+        constant ? moved_centres(solver, &families, c) : pulled_centres(model, (size_t)result->options.proof_terms, c);
     nh_expr_set momenta = {0}, positions = nh_expr_set_positions(&families, true, false),
-                others = turns_about_centres(model, centres, centre, force);
+                others = constant ? (nh_expr_set){0} : turns_about_centres(model, centres, c);
     nh_expr_set_put_all(&momenta, model->m, model->p);
     nh_family factor[] = {nh_family_list_terms(&families, &momenta), nh_family_list_terms(&families, &positions)};
     nh_family all[] = {nh_family_list_product(&families, 2, factor), nh_family_list_terms(&families, &others)};
     size_t n = others.n ? 2 : 1;
-    if (constant) boosts(solver, &families);
+    if (constant) centres_of_mass(solver, centres, c);
     solver->wide = true; /* of many coordinates these are few columns */
     nh_stage_solver_stage(solver, "canonical momenta times 1 and positions", n, all);
     solver->wide = false;
-    if (!constant) turns_in_space(solver, &families, n, all);
-    centres_of_mass(solver, centres, centre, force);
+    if (constant) return;
+    turns_in_space(solver, &families, n, all);
+    centres_of_mass(solver, centres, c);
 }
