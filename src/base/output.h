@@ -18,7 +18,7 @@ typedef struct nh_output_file {
     nh_leaving leaving; /* first member: the temporary file is removed when the process ends early */
     struct nh_output_file *next;
     char path[NH_OUTPUT_LONGEST], temporary[NH_OUTPUT_LONGEST];
-    bool kept, placed; /* the old file is kept beside its place; the new one has it */
+    bool kept, placed; /* the old file has another name; the new one has its own */
 } nh_output_file;
 typedef struct {
     int file;

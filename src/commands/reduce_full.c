@@ -32,7 +32,8 @@ static yardsticks yardsticks_of(const nh_kinetic *k, const double *K, const doub
     return y;
 }
 
-static double beside(const yardsticks *y, bool angle, double unit)
+/* The size of a coordinate with this unit of inertia. */
+static double size_by_unit(const yardsticks *y, bool angle, double unit)
 {
     if (!(unit > 0)) return y->lengths > 0 ? y->lengths : 1; /* it has no inertia */
     /* part of the radius of gyration: for smaller sizes, differences of 1e-13 of that radius would count */
@@ -70,7 +71,7 @@ static double distance(const nh_kinetic *k, const double *a, const double *b, co
         double unit = sqrt(fmax(K[s * (m + 1)], 0));
         off[s] = a[s] - b[s];
         if (k->angle[s]) off[s] -= turn * round(off[s] / turn);
-        off[s] = unit > 0 ? off[s] / unit / beside(&y, k->angle[s], unit) : 0;
+        off[s] = unit > 0 ? off[s] / unit / size_by_unit(&y, k->angle[s], unit) : 0;
     }
     for (size_t i = 0; i < m * m; i++) square += K[i] * off[i / m] * off[i % m];
     nh_free(K);
@@ -104,7 +105,7 @@ void nh_reduction_first_sizes(const nh_kinetic *k, size_t count, const double *a
     /* the same condition as in nh_reduction_reliable */
     for (size_t i = 0; i < count && i < 2; i++) grow(k, a + i * stride, so_far);
     yardsticks y = yardsticks_of(k, K, so_far);
-    for (size_t s = 0; s < m; s++) size[s] = beside(&y, k->angle[s], sqrt(fmax(K[s * (m + 1)], 0)));
+    for (size_t s = 0; s < m; s++) size[s] = size_by_unit(&y, k->angle[s], sqrt(fmax(K[s * (m + 1)], 0)));
     nh_free(so_far);
     nh_free(K);
 }

@@ -383,13 +383,13 @@ static bool add_related(nh_current_checker *checker, nh_ex phi, double quotient)
     return good;
 }
 
-size_t nh_currents_exchange_last(nh_current_checker *checker, nh_ex phi, bool *exchanged)
+bool nh_currents_exchange_last(nh_current_checker *checker, nh_ex phi)
 {
     nh_current last = nh_current_list_take(checker->result, checker->result->count - 1);
     bool added = add_related(checker, phi, last.quotient);
-    *exchanged = added && nh_currents_known(checker, last.phi, last.proof.proved);
-    if (!*exchanged) nh_current_list_append(checker->result, &last);
-    return added && !*exchanged;
+    bool exchanged = added && nh_currents_known(checker, last.phi, last.proof.proved);
+    if (!exchanged) nh_current_list_append(checker->result, &last);
+    return exchanged;
 }
 
 bool nh_currents_add_series(nh_current_checker *checker, nh_ex phi, const nh_series *series, double digits,

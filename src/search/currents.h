@@ -16,9 +16,9 @@ void nh_current_checker_free(nh_current_checker *bench);
 bool nh_currents_add(nh_current_checker *bench, nh_candidate *candidate, const nh_points *fit, bool certain);
 
 /* The last current holds at the given parameters only, phi for all: phi replaces it if it is a function of phi and the
- * other currents (`exchanged`); otherwise phi is placed before it.  Nothing happens where phi depends on the other
- * currents.  Returns how many more currents there are. */
-size_t nh_currents_exchange_last(nh_current_checker *bench, nh_ex phi, bool *exchanged);
+ * other currents; otherwise phi is placed before it.  Nothing happens where phi depends on the other currents.  Is it
+ * replaced? */
+bool nh_currents_exchange_last(nh_current_checker *bench, nh_ex phi);
 
 /* The last current is added again, as this candidate; where that fails it stays. */
 void nh_currents_add_again(nh_current_checker *bench, nh_candidate *candidate, const nh_points *fit, bool certain);

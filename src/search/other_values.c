@@ -83,20 +83,19 @@ static bool current_of(const nh_model *model, const nh_other_values *other, nh_c
     return good;
 }
 
-size_t nh_other_values_exchange(nh_current_checker *checker, nh_other_values *other, nh_ex pivot, bool *exchanged)
+bool nh_other_values_exchange(nh_current_checker *checker, nh_other_values *other, nh_ex pivot)
 {
     const nh_analysis *result = checker->result;
     nh_ex phi;
-    size_t more = 0;
-    *exchanged = false;
-    for (int i = 0; i < 2 && !*exchanged; i++) {
+    bool exchanged = false;
+    for (int i = 0; i < 2 && !exchanged; i++) {
         nh_candidates *list = i == 0 ? other->simplest : other->with_pivots;
-        for (size_t k = 0; list && k < list->count && !*exchanged; k++) {
+        for (size_t k = 0; list && k < list->count && !exchanged; k++) {
             nh_candidate *c = &list->candidate[k];
             if (i == 1 && c->term[c->pivot] != pivot) continue;
             if (current_of(result->model, other, c, &result->options, &phi))
-                more += nh_currents_exchange_last(checker, phi, exchanged);
+                exchanged = nh_currents_exchange_last(checker, phi);
         }
     }
-    return more;
+    return exchanged;
 }

@@ -27,7 +27,7 @@ void nh_other_values_take(nh_other_values *other, const nh_ansatz *ansatz, const
 void nh_other_values_clear(nh_other_values *other);
 
 /* Replaces the last current, which holds at the given parameters only and has this pivot, by currents that hold for all
- * values.  `exchanged`: the last one is gone.  Returns how many more currents there are. */
-size_t nh_other_values_exchange(nh_current_checker *bench, nh_other_values *other, nh_ex pivot, bool *exchanged);
+ * values.  Is the last one gone? */
+bool nh_other_values_exchange(nh_current_checker *bench, nh_other_values *other, nh_ex pivot);
 
 #endif

@@ -252,11 +252,9 @@ static bool exchange(nh_stage_solver *solver, const nh_solved *s, size_t pivots,
 {
     const nh_analysis *r = solver->r;
     const nh_proof *proof = &r->found[r->count - 1].proof;
-    bool exchanged = true;
     if (!proof->proved || proof->all_parameters || r->model->system->parameters == 0) return true;
     if (!other->tried) solve_elsewhere(solver, s, pivots, pivot, other);
-    nh_other_values_exchange(solver->bench, other, own, &exchanged);
-    return exchanged;
+    return nh_other_values_exchange(solver->bench, other, own);
 }
 
 static nh_ex *pivots_of(const nh_candidates *list)

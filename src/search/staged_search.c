@@ -97,8 +97,7 @@ static const row rows[] = {
     {"constraints", FITTED, nh_integrals_find, 0},         /* positions that they hold */
     {"energy and momenta", FITTED, energy_and_momenta, 0}, /* alone: no nearly dependent function replaces them */
     {"potential of forces", FITTED, force_potential, 0},   /* the energy with it */
-    {"linear fields", FITTED, nh_linear_fields_search,
-     0},                                               /* translations, turns, boosts: with numbers for all masses */
+    {"linear fields", FITTED, nh_linear_fields_search, 0}, /* translations, turns, boosts */
     {"words", FITTED, .stage = NH_STAGE_WORDS},        /* the energy, momenta, velocities, positions by themselves */
     {"driven words", FITTED, .stage = NH_STAGE_DRIVE}, /* with what a force of t adds to them */
     {"rational", FITTED, .stage = NH_STAGE_RATIONAL},  /* velocities in denominators */

@@ -257,8 +257,8 @@ bool nh_deck_number(const nh_deck *deck, const nh_deck_node *node, const char *w
     return nh_text_to_number(node->text, out) || wrong(deck, node, what, error, "a number that a double can hold");
 }
 
-/* Digits are read exactly (a seed may have 19 of them); 1e6 and 4096.0 are whole numbers too, as far as doubles are
- * exact. */
+/* Reads digits exactly: a seed may have 19 of them.  1e6 and 4096.0 are whole numbers, too, up to 2^53, below which a
+ * double has all of these. */
 static bool to_whole(const char *text, long *out)
 {
     const double exact = 9007199254740992.0; /* 2^53 */

@@ -133,7 +133,7 @@ static double best_dependent(const nh_constraint_samples *c, size_t *out)
     return best;
 }
 
-/* Do the constraints determine these velocities at almost all states?  Of constraints that are not linear by numbers. */
+/* Do the constraints determine these velocities at almost all states?  Of nonlinear constraints by numbers. */
 static bool determined(const nh_constraint_samples *c, const size_t *subset, double largest)
 {
     static const double undetermined = 1e-12;

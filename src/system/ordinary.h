@@ -1,4 +1,4 @@
-/* ordinary: the keys and short values of a system file as people write them, in the form that docs/formats.md describes:
+/* ordinary: keys and short values of a system file as people write them, in the form that docs/formats.md describes:
  * `L:` for `lagrangian:`, `constraint:`, energies `T:` and `V:`, one value without a list, `m = 1` among parameters,
  * `theta(t)` among coordinates. */
 #ifndef NH_ORDINARY_H
