@@ -13,6 +13,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -29,16 +30,17 @@ static bool stopped;      /* ended by a signal */
 
 static void end_at_once(int code, const char *reached, const char *option)
 {
-    char doing[80] = "";
+    char doing[80] = "", seconds[40] = "";
     nh_leave_now();
     nh_progress_last(doing, sizeof doing);
+    if (!strcmp(reached, "time")) snprintf(seconds, sizeof seconds, " of %g s", limit);
     if (code == NH_INTERRUPTED)
         dprintf(STDERR_FILENO, "nhsym: interrupted%s\n",
                 atomic_load(&writing) ? ": the results were not written completely, and files remain as they were"
                                       : "");
     else
-        dprintf(STDERR_FILENO, "nhsym: %s%sthe %s limit was reached%s\nhint: raise it by %s\n", doing,
-                *doing ? ": " : "", reached,
+        dprintf(STDERR_FILENO, "nhsym: %s%sthe %s limit%s was reached%s\nhint: raise it by %s\n", doing,
+                *doing ? ": " : "", reached, seconds,
                 atomic_load(&writing) ? ", and the results could not be written in time"
                                       : " before any result could be written",
                 option);
@@ -117,7 +119,7 @@ static void take_signal(int number)
     static int first; /* the thread took a signal */
     static double taken;
     if (number == first && (nh_clock() - taken < same_press || number == SIGXCPU)) return; /* it comes every second */
-    if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED, NULL, NULL);
+    if (nh_interrupted() || atomic_load(&writing)) end_at_once(NH_INTERRUPTED, "", "");
     nh_interrupt();
     stopped = true;
     first = number;
