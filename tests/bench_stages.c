@@ -155,11 +155,11 @@ static char *line_of(nh_dag *d, nh_ex e)
 static void write_lost(nh_analysis *r, const result *all, FILE *out)
 {
     nh_error error = {0};
-    nh_points *generic = nh_points_create(r->model, points, 1, 4711, &error);
+    nh_points *generic = nh_points_create(r->question->model, points, 1, 4711, &error);
     for (size_t i = 0; i < all->formulas && generic; i++) {
         nh_ex typed, e;
-        bool read = nh_system_expression_text(r->system, "formula", all->formula[i], 0, NULL, &typed, &error) &&
-                    nh_analysis_file_to_chart(r->model, typed, &e, &error);
+        bool read = nh_system_expression_text(r->question->system, "formula", all->formula[i], 0, NULL, &typed, &error) &&
+                    nh_analysis_file_to_chart(r->question->model, typed, &e, &error);
         if (!read || !depends(r, generic, e)) fprintf(out, "lost\t%s%s\n", read ? "" : "(not read) ", all->formula[i]);
     }
     nh_points_free(generic);
@@ -168,9 +168,9 @@ static void write_lost(nh_analysis *r, const result *all, FILE *out)
 static void write_result(nh_analysis *r, const result *all, FILE *out)
 {
     size_t proved = 0, general = 0, series = 0, length = 0;
-    nh_dag *d = r->model->dag;
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
+    nh_dag *d = r->question->model->dag;
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
         if (f->independence != NH_INDEPENDENT) continue;
         char *text = line_of(d, f->phi);
         proved += f->proof.proved && !f->series;
@@ -179,15 +179,15 @@ static void write_result(nh_analysis *r, const result *all, FILE *out)
         length += strlen(text);
         nh_free(text);
     }
-    fprintf(out, "result 0 %zu %zu %zu %zu %zu %zu %zu %" PRIx64 "\n", r->independent, proved, general, series, r->pieces, r->furthers, length, r->used);
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
+    fprintf(out, "result 0 %zu %zu %zu %zu %zu %zu %zu %" PRIx64 "\n", r->list->independent, proved, general, series, r->list->pieces, r->list->furthers, length, r->used);
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
         if (f->independence != NH_INDEPENDENT) continue;
         char *text = line_of(d, f->has_in_velocities ? f->in_velocities : f->phi);
         fprintf(out, "found\t%s\n", text);
         nh_free(text);
     }
-    if (all && r->independent < all->independent) write_lost(r, all, out);
+    if (all && r->list->independent < all->independent) write_lost(r, all, out);
 }
 
 static void child(const task *t, uint64_t mask, const result *all, FILE *out)

@@ -40,12 +40,12 @@ typedef struct {
 /* Is e a function of the currents found?  Its gradient is in the span of theirs at generic points. */
 static bool depends(const nh_analysis *r, const nh_points *generic, nh_ex e)
 {
-    nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi);
-    nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
-    for (size_t k = 0; k < r->count; k++) phi[k] = r->found[k].phi;
-    phi[r->count] = e;
-    nh_independence_test(r->model, generic, r->count + 1, phi, NULL, r->options.sure, r->options.doubt, kind, NULL);
-    bool result = kind[r->count] == NH_DEPENDENT || kind[r->count] == NH_CONSTANT;
+    nh_ex *phi = nh_alloc_array(r->list->count + 1, sizeof *phi);
+    nh_independence *kind = nh_alloc_array(r->list->count + 1, sizeof *kind);
+    for (size_t k = 0; k < r->list->count; k++) phi[k] = r->list->found[k].phi;
+    phi[r->list->count] = e;
+    nh_independence_test(r->question->model, generic, r->list->count + 1, phi, NULL, r->question->options.sure, r->question->options.doubt, kind, NULL);
+    bool result = kind[r->list->count] == NH_DEPENDENT || kind[r->list->count] == NH_CONSTANT;
     nh_free(kind);
     nh_free(phi);
     return result;
@@ -69,10 +69,10 @@ static multiplier_rate rate_of(const multiplier_motion *motion, const nh_current
 /* A certified current must be constant to `rate_bound`, another one to the digits that are reported. */
 static void judge(nh_analysis *r, const multiplier_motion *motion, row *o)
 {
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
         double digits = fmin(f->proof.digits, f->printed_digits); /* coefficients refined to many digits are written with those of doubles */
-        bool certified = f->proof.proved || digits >= r->options.digits;
+        bool certified = f->proof.proved || digits >= r->question->options.digits;
         multiplier_rate rate = rate_of(motion, f);
         o->uncertain += !certified;
         if (isnan(rate.upper)) {
@@ -102,11 +102,11 @@ static void check_file(const nh_system *y, const multiplier_motion *motion, row 
 static void judge_almosts(const nh_analysis *r, const nh_points *generic, row *o)
 {
     static const double other_points = 3;
-    double last = 0, unit = r->pace > 0 ? r->pace : 1;
+    double last = 0, unit = r->question->pace > 0 ? r->question->pace : 1;
     for (size_t k = 0; k < r->almosts; k++) {
-        nh_ex pair[2] = {r->almost[k].phi, nh_model_gamma(r->model, r->almost[k].phi)};
+        nh_ex pair[2] = {r->almost[k].phi, nh_model_gamma(r->question->model, r->almost[k].phi)};
         double *value = nh_alloc_array(2 * generic->count, sizeof *value), mean = 0, variation = 0, rate = 0;
-        nh_points_evaluate(generic, r->model, 2, pair, value);
+        nh_points_evaluate(generic, r->question->model, 2, pair, value);
         for (size_t p = 0; p < generic->count; p++) mean += value[p] / (double)generic->count;
         for (size_t p = 0; p < generic->count; p++) {
             variation += pow(value[p] - mean, 2);
@@ -138,31 +138,31 @@ static void compare(nh_analysis *r, row *o)
 {
     nh_error error;
     nh_error_clear(&error);
-    nh_points *generic = nh_points_create(r->model, points, 1, 4711, &error);
-    o->known = r->system->currents;
-    o->found = r->independent;
-    o->maximum = r->local_maximum;
+    nh_points *generic = nh_points_create(r->question->model, points, 1, 4711, &error);
+    o->known = r->question->system->currents;
+    o->found = r->list->independent;
+    o->maximum = r->question->local_maximum;
     o->seconds = r->timing.total;
     complete_to(r, o->complete, sizeof o->complete);
-    multiplier_motion *motion = multiplier_motion_create(r->model, generic, bits);
+    multiplier_motion *motion = multiplier_motion_create(r->question->model, generic, bits);
     judge(r, motion, o);
     judge_almosts(r, generic, o);
-    check_file(r->system, motion, o);
+    check_file(r->question->system, motion, o);
     multiplier_motion_free(motion);
-    for (size_t k = 0; k < r->system->currents; k++) {
+    for (size_t k = 0; k < r->question->system->currents; k++) {
         nh_ex e;
-        if (nh_analysis_file_to_chart(r->model, r->system->current[k].value, &e, &error) && depends(r, generic, e)) continue;
+        if (nh_analysis_file_to_chart(r->question->model, r->question->system->current[k].value, &e, &error) && depends(r, generic, e)) continue;
         o->missing++;
-        note(o, "missing", r->system->current[k].name);
-        if (!r->system->current[k].out_of_reach) continue;
+        note(o, "missing", r->question->system->current[k].name);
+        if (!r->question->system->current[k].out_of_reach) continue;
         o->excused++;
-        note(o, "because", r->system->current[k].out_of_reach);
+        note(o, "because", r->question->system->current[k].out_of_reach);
     }
-    for (size_t k = 0; k < r->system->not_conserved; k++) {
+    for (size_t k = 0; k < r->question->system->not_conserved; k++) {
         nh_ex e;
-        if (!nh_analysis_file_to_chart(r->model, r->system->trap[k].value, &e, &error) || !depends(r, generic, e)) continue;
+        if (!nh_analysis_file_to_chart(r->question->model, r->question->system->trap[k].value, &e, &error) || !depends(r, generic, e)) continue;
         o->wrong++;
-        note(o, "trap", r->system->trap[k].name);
+        note(o, "trap", r->question->system->trap[k].name);
     }
     nh_points_free(generic);
 }

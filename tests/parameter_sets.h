@@ -99,9 +99,9 @@ static inline void add_analysis(formulas *f, const char *path, size_t settings, 
     nh_error error = {0};
     nh_request q = {.system_path = path, .settings = settings, .setting = setting, .options = *options};
     nh_analysis *r = nh_analysis_create(&q, &error);
-    for (size_t k = 0; r && k < r->count; k++) {
-        const nh_current *c = &r->found[k];
-        formulas_add(f, r->model, special, c->name, 1, c->has_in_velocities ? &c->in_velocities : &c->phi, &c->proof, why_limited(c));
+    for (size_t k = 0; r && k < r->list->count; k++) {
+        const nh_current *c = &r->list->found[k];
+        formulas_add(f, r->question->model, special, c->name, 1, c->has_in_velocities ? &c->in_velocities : &c->phi, &c->proof, why_limited(c));
     }
     f->answered &= r != NULL;
     f->analysis = r;
@@ -170,7 +170,7 @@ static const char *const fate_words[] = {"letter for letter", "by those found th
 
 enum { most_parts = 64, probes = 32 };
 
-static inline nh_model *model_of(const formulas *f) { return f->analysis ? f->analysis->model : f->reduction ? f->reduction->whole : NULL; }
+static inline nh_model *model_of(const formulas *f) { return f->analysis ? f->analysis->question->model : f->reduction ? f->reduction->whole : NULL; }
 
 /* The parts of a formula, which "; " separates, as expressions of another run of the same system; 0 where one means nothing. */
 static inline size_t parts_of(const nh_model *o, const char *text, nh_ex *e)
@@ -271,10 +271,10 @@ static inline bool is_function(const formulas *is, nh_ex phi)
     const nh_analysis *r = is->analysis;
     nh_ex list[200];
     size_t n = 0;
-    for (size_t k = 0; r && k < r->count && n < 190; k++)
-        if (r->found[k].independence == NH_INDEPENDENT) list[n++] = r->found[k].phi;
+    for (size_t k = 0; r && k < r->list->count && n < 190; k++)
+        if (r->list->found[k].independence == NH_INDEPENDENT) list[n++] = r->list->found[k].phi;
     list[n] = phi;
-    return r && nh_rank_decide(r->model, n, list, r->options.doubt).answer == NH_RANK_STAYS;
+    return r && nh_rank_decide(r->question->model, n, list, r->question->options.doubt).answer == NH_RANK_STAYS;
 }
 
 static inline bool is_constant(const nh_model *o, size_t n, const nh_ex *e)

@@ -36,20 +36,20 @@ static nh_ex generic_term(const nh_system *y, int exponent, uint64_t seed)
     return nh_mul(d, nh_pow(d, nh_int(d, 10), nh_int(d, exponent)), nh_add(d, wave, turn));
 }
 
-static bool is_certified(const nh_analysis *r, const nh_current *f) { return f->proof.proved || f->proof.digits >= r->options.digits; }
+static bool is_certified(const nh_analysis *r, const nh_current *f) { return f->proof.proved || f->proof.digits >= r->question->options.digits; }
 
 /* Those of the independent currents that the multiplier form of the changed system conserves too; out: at most r->count. */
 static size_t survivors(const nh_analysis *r, nh_ex term, nh_ex *out)
 {
     nh_error error = {0};
     size_t n = 0;
-    nh_points *at = nh_points_create(r->model, points, 1, 815, &error);
-    nh_ex before = r->system->lagrangian;
-    r->system->lagrangian = nh_add(r->model->dag, before, term);
-    multiplier_motion *motion = multiplier_motion_create(r->model, at, bits);
-    r->system->lagrangian = before;
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
+    nh_points *at = nh_points_create(r->question->model, points, 1, 815, &error);
+    nh_ex before = r->question->system->lagrangian;
+    r->question->system->lagrangian = nh_add(r->question->model->dag, before, term);
+    multiplier_motion *motion = multiplier_motion_create(r->question->model, at, bits);
+    r->question->system->lagrangian = before;
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
         if (f->independence != NH_INDEPENDENT || !is_certified(r, f)) continue;
         multiplier_rate rate = rate_of(motion, f);
         if (rate.upper < rate_bound) out[n++] = f->in_velocities;
@@ -76,10 +76,10 @@ static inline perturbed perturbed_copy(const char *folder, const char *name, siz
         nh_analysis_free(r);
         return p;
     }
-    nh_ex *known = nh_alloc_array(r->count + 1, sizeof *known), term = generic_term(r->system, perturbation[which], seed);
-    p.original = r->independent;
+    nh_ex *known = nh_alloc_array(r->list->count + 1, sizeof *known), term = generic_term(r->question->system, perturbation[which], seed);
+    p.original = r->list->independent;
     p.survive = survivors(r, term, known);
-    rewrite_system(r->system, &(rewriting){.extra = term, .known = p.survive, .current = known}, out);
+    rewrite_system(r->question->system, &(rewriting){.extra = term, .known = p.survive, .current = known}, out);
     fclose(out);
     p.o = compare_path(path, &options);
     remove(path);

@@ -93,16 +93,16 @@ static nh_analysis *ask(question q)
 /* ---- looking at a result ---- */
 
 /* The current that is a multiple of an expected one; its distance must be rounding. */
-static nh_current *find(nh_analysis *r, const char *expected)
+static const nh_current *find(nh_analysis *r, const char *expected)
 {
-    nh_points *points = points_of(r->model, 100, 77);
-    nh_current *best = NULL;
+    nh_points *points = points_of(r->question->model, 100, 77);
+    const nh_current *best = NULL;
     double nearest = 1e-10;
-    for (size_t i = 0; i < r->count; i++) {
-        double off = off_multiple(r->model, points, r->found[i].phi, formula(r->model, expected));
+    for (size_t i = 0; i < r->list->count; i++) {
+        double off = off_multiple(r->question->model, points, r->list->found[i].phi, formula(r->question->model, expected));
         if (off >= nearest) continue;
         nearest = off;
-        best = &r->found[i];
+        best = &r->list->found[i];
     }
     nh_points_free(points);
     return best;
@@ -118,20 +118,20 @@ static bool warned(const nh_analysis *r, const char *text)
 /* Nothing that is reported may be false: Gamma(Phi) vanishes to the digits of doubles where it was not proved. */
 static void nothing_false(nh_analysis *r)
 {
-    const nh_model *o = r->model;
+    const nh_model *o = r->question->model;
     nh_points *points = points_of(o, 60, 88);
     double z[20];
-    for (size_t i = 0; i < r->count; i++) {
-        const nh_current *f = &r->found[i];
+    for (size_t i = 0; i < r->list->count; i++) {
+        const nh_current *f = &r->list->found[i];
         nh_ex rate = nh_model_gamma(o, f->phi);
-        cr_expect(f->proof.proved || f->proof.digits >= 50, "%s of %s is neither proved nor certified", f->name, r->system->name);
+        cr_expect(f->proof.proved || f->proof.digits >= 50, "%s of %s is neither proved nor certified", f->name, r->question->system->name);
         double worst = 0, size = 0;
         for (size_t p = 0; p < points->count; p++) {
             point_of(points, p, z);
             worst = fmax(worst, fabs(value_at(o, rate, z)));
             size = fmax(size, fabs(value_at(o, f->phi, z)));
         }
-        cr_expect(worst <= 1e-8 * size, "%s of %s changes at a rate of %.1e", f->name, r->system->name, worst);
+        cr_expect(worst <= 1e-8 * size, "%s of %s changes at a rate of %.1e", f->name, r->question->system->name, worst);
     }
     nh_points_free(points);
 }
@@ -155,9 +155,9 @@ static const expected PAPER[] = {
 
 static void check_found(nh_analysis *r, const expected *e)
 {
-    double k = r->model->parameter_value[2];
-    nh_current *f = find(r, e->formula);
-    cr_assert_not_null(f, "k = %g in %s: %s was not found", k, r->model->chart->name, e->name);
+    double k = r->question->model->parameter_value[2];
+    const nh_current *f = find(r, e->formula);
+    cr_assert_not_null(f, "k = %g in %s: %s was not found", k, r->question->model->chart->name, e->name);
     cr_expect(f->proof.proved && f->exact, "k = %g: %s was not proved", k, e->name);
     cr_expect(f->proof.all_parameters || k == 1, "k = %g: %s was not proved for all parameters", k, e->name);
     cr_expect(f->proof.digits >= 50, "%s: %g digits", e->name, f->proof.digits);
@@ -166,20 +166,20 @@ static void check_found(nh_analysis *r, const expected *e)
     cr_expect_eq(f->symmetry.bracket_in_distribution, e->in_distribution, "%s: bracket in the distribution", e->name);
     cr_expect_lt(f->heldout, 1e-8);
     cr_expect(f->has_in_velocities);
-    if (!r->model->chart->quasi) return; /* the other chart ends on the way */
+    if (!r->question->model->chart->quasi) return; /* the other chart ends on the way */
     cr_expect(f->drift.small && f->drift.falls, "k = %g: %s drifts by %.1e", k, e->name, f->drift.drift[NH_DRIFT_RUNS - 1]);
 }
 
 /* Which of Phi2 and Phi2b is called dependent is a matter of their order; one of them is, with its relation. */
 static void check_sleigh(nh_analysis *r)
 {
-    double k = r->model->parameter_value[2];
+    double k = r->question->model->parameter_value[2];
     size_t dependent = 0;
     for (size_t i = 0; i < 4; i++) check_found(r, &PAPER[i]);
     cr_expect_eq(r->verdict, NH_FOUND, "k = %g: verdict %d", k, (int)r->verdict);
-    cr_expect(r->count == 4 && r->independent == 3 && r->local_maximum == 5, "k = %g: %zu found, %zu independent", k, r->count, r->independent);
-    for (size_t i = 0; i < r->count; i++) {
-        const nh_current *f = &r->found[i];
+    cr_expect(r->list->count == 4 && r->list->independent == 3 && r->question->local_maximum == 5, "k = %g: %zu found, %zu independent", k, r->list->count, r->list->independent);
+    for (size_t i = 0; i < r->list->count; i++) {
+        const nh_current *f = &r->list->found[i];
         cr_expect(f->independence == NH_INDEPENDENT || f->independence == NH_DEPENDENT);
         if (f->independence != NH_DEPENDENT) continue;
         dependent++;
@@ -197,11 +197,11 @@ static void check_sleigh(nh_analysis *r)
 /* The relation holds: c0 + c1 Phi1 + ... is evaluated as text by hand, for Phi2^2 + Phi2b^2 = 2 m E. */
 static void check_relation(nh_analysis *r)
 {
-    nh_current *a = find(r, PAPER[1].formula), *b = find(r, PAPER[2].formula), *e = find(r, "-E");
-    nh_points *points = points_of(r->model, 40, 79);
-    nh_ex three[] = {nh_powi(r->model->dag, a->phi, 2), nh_powi(r->model->dag, b->phi, 2), e->phi};
-    nh_dag *d = r->model->dag;
-    nh_ex sum = nh_add(d, nh_add(d, three[0], three[1]), nh_mul(d, nh_mul(d, nh_int(d, 2), formula(r->model, "m")), e->phi));
+    const nh_current *a = find(r, PAPER[1].formula), *b = find(r, PAPER[2].formula), *e = find(r, "-E");
+    nh_points *points = points_of(r->question->model, 40, 79);
+    nh_ex three[] = {nh_powi(r->question->model->dag, a->phi, 2), nh_powi(r->question->model->dag, b->phi, 2), e->phi};
+    nh_dag *d = r->question->model->dag;
+    nh_ex sum = nh_add(d, nh_add(d, three[0], three[1]), nh_mul(d, nh_mul(d, nh_int(d, 2), formula(r->question->model, "m")), e->phi));
     cr_expect_eq(nh_normal_is_zero(d, sum, 0), NH_ZERO, "the currents are not normalised as in the paper");
     nh_points_free(points);
 }
@@ -236,7 +236,7 @@ Test(analyze, the_sleigh_has_all_five_quantities)
 {
     nh_analysis *r = ask((question){SLEIGH, "analyses/sleigh.yaml", NULL, NH_CHART_AUTO, 0, 1});
     for (size_t i = 0; i < 4; i++) check_found(r, &PAPER[i]);
-    cr_expect(r->independent == 5 && r->local_maximum == 5 && r->search == NH_SEARCH_COMPLETE, "%zu", r->independent);
+    cr_expect(r->list->independent == 5 && r->question->local_maximum == 5 && r->search == NH_SEARCH_COMPLETE, "%zu", r->list->independent);
     cr_expect(r->current.dimension == 4 && r->symmetry.dimension == 4, "the numbers of the problem are those of the ansatz");
     nh_analysis_free(r);
 }
@@ -248,7 +248,7 @@ Test(analyze, the_frequency_is_recognised, PLAIN_ONLY)
         if (!sweep_tries(i + 2, 1, 3)) continue;
         nh_analysis *r = ask((question){SLEIGH, QUESTION, SETS[i], NH_CHART_AUTO, 0, 1});
         cr_assert(r->specials == 1 && r->special[0].recognised[0], "k = %g", SETS[i][2]);
-        cr_expect_eq(r->special[0].recognised[0], formula(r->model, "1/k"), "k = %g", SETS[i][2]);
+        cr_expect_eq(r->special[0].recognised[0], formula(r->question->model, "1/k"), "k = %g", SETS[i][2]);
         nh_analysis_free(r);
     }
 }
@@ -265,7 +265,7 @@ Test(analyze, the_sleigh_without_inertia_about_its_centre, PLAIN_ONLY)
     nh_analysis *r = ask((question){SLEIGH, file("analysis.yaml", text), SETS[0], NH_CHART_AUTO, 0, 0});
     cr_assert_eq(r->verdict, NH_FOUND);
     cr_expect(find(r, "m*(x' - a*phi'*sin(phi))") && find(r, "m*(y' + a*phi'*cos(phi))"), "the momentum of the centre of mass");
-    cr_expect(r->count == 2 && r->independent == 2);
+    cr_expect(r->list->count == 2 && r->list->independent == 2);
     const nh_validation *v = r->validation;
     cr_assert(v && v->complete && v->watches >= 2);
     size_t first = v->watches - 2; /* the user's are the last of what is recorded */
@@ -315,15 +315,15 @@ Test(analyze, friction, WHOLE_ONLY)
 {
     const char *system = sleigh_with("forces:\n  - phi = -0.01*phi'\n", "");
     nh_analysis *r = ask((question){.system = system, .analysis = ansatz("  - terms: [omega^2, v^2, omega*v]\n")});
-    cr_expect(r->verdict == NH_NONE && r->count == 0, "verdict %d, %zu found", (int)r->verdict, r->count);
+    cr_expect(r->verdict == NH_NONE && r->list->count == 0, "verdict %d, %zu found", (int)r->verdict, r->list->count);
     cr_expect(warned(r, "energy is not conserved") && warned(r, "-omega^2/100"), "nothing was said about the energy");
     nh_analysis_free(r);
     r = ask((question){.system = system, .analysis = QUESTION});
     cr_expect_null(find(r, "E"));
     cr_expect_null(find(r, PAPER[1].formula));
     cr_expect_null(find(r, PAPER[2].formula));
-    cr_assert_eq(r->count, 1);
-    cr_expect_str_empty(r->found[0].meaning);
+    cr_assert_eq(r->list->count, 1);
+    cr_expect_str_empty(r->list->found[0].meaning);
     cr_expect_not_null(find(r, "E + v/(100*a)"), "d/dt v = a omega^2 makes up for the friction");
     cr_expect(warned(r, "energy is not conserved"));
     nothing_false(r);
@@ -342,7 +342,7 @@ Test(analyze, an_ansatz_without_a_true_integral_says_none, PLAIN_ONLY)
                                         "  - product:\n      - terms: [omega, v]\n      - {basis: fourier, in: phi, harmonics: 4}\n"};
     for (size_t i = 0; i < 3; i++) {
         nh_analysis *r = ask((question){.system = SLEIGH, .analysis = ansatz(items[i])});
-        cr_expect(r->verdict == NH_NONE && r->count == 0 && r->independent == 0, "ansatz %zu: %zu found", i, r->count);
+        cr_expect(r->verdict == NH_NONE && r->list->count == 0 && r->list->independent == 0, "ansatz %zu: %zu found", i, r->list->count);
         cr_expect(r->current.done && r->current.rank > 0 && r->current.spectrum[0] > 1e-6, "ansatz %zu: smallest value %.1e", i, r->current.spectrum[0]);
         for (size_t j = 1; j < r->current.rank; j++) cr_expect(r->current.spectrum[j] >= r->current.spectrum[j - 1]);
         cr_expect(r->symmetry.done && r->symmetry.dimension == 0);
@@ -357,7 +357,7 @@ Test(analyze, an_unknown_frequency_that_does_not_exist)
     nh_analysis *r = ask((question){.system = system, .analysis = QUESTION, .until = 1});
     cr_expect(r->specials == 0 && r->hits->count == 0);
     cr_expect_eq(r->verdict, NH_NONE); /* E contains cos x, which is not in the ansatz */
-    cr_expect(r->count == 0 && r->current.spectrum[0] > 1e-5, "%zu found, smallest value %.1e", r->count, r->current.spectrum[0]);
+    cr_expect(r->list->count == 0 && r->current.spectrum[0] > 1e-5, "%zu found, smallest value %.1e", r->list->count, r->current.spectrum[0]);
     nh_analysis_free(r);
 }
 
@@ -385,7 +385,7 @@ Test(analyze, nearly_is_not_conserved)
 {
     nh_analysis *r = ask((question){.system = SLEIGH, .analysis = ansatz("  - product:\n      - terms: [omega, v]\n"
                                                                       "      - {basis: fourier, in: phi, frequency: 0.5000001}\n")});
-    cr_expect(r->verdict == NH_NONE && r->count == 0, "verdict %d with %zu found", (int)r->verdict, r->count);
+    cr_expect(r->verdict == NH_NONE && r->list->count == 0, "verdict %d with %zu found", (int)r->verdict, r->list->count);
     cr_expect(r->current.spectrum[0] > 1e-9 && r->current.spectrum[0] < 1e-6, "%.1e", r->current.spectrum[0]);
     nh_analysis_free(r);
 }
@@ -396,7 +396,7 @@ Test(analyze, words_that_are_not_finite_do_not_hide_the_energy, PLAIN_ONLY)
     nh_analysis *r = ask((question){.system = file("system.yaml", "name: box\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: p, type: angle}]\n"
                                                                "lagrangian: x'^2*(29*y^4 + 25)/200 - 2.12*x^2 + y'^2*(29*x^2 + 18)/100 + p'^2 + y^2*p'\n"
                                                                "constraints: [\"p' = 79*x^2*y'/50 - 4*x'*sin(p)/5\"]\n"), .until = 1});
-    cr_expect_not_null(find(r, "E"), "%zu found", r->count);
+    cr_expect_not_null(find(r, "E"), "%zu found", r->list->count);
     nothing_false(r);
     nh_analysis_free(r);
 }
@@ -406,10 +406,10 @@ Test(analyze, inexact_constants_refute_nothing)
 {
     nh_analysis *r = ask((question){.system = file("system.yaml", "name: tiny\ncoordinates: [x, y]\n"
                                                                "lagrangian: x'^2/2 + 1.3*y'^2*(1 + x^2) + x'*y'/3 - 1.1234567890123e-9*(7.7e10*x^3*y + 3.3e10*y^4/7)/1.7e1 - 1.6726e-27*1e27*y\n"), .until = 1});
-    cr_assert_geq(r->count, 1);
-    cr_expect_not_null(find(r, "E"), "%zu found", r->count);
+    cr_assert_geq(r->list->count, 1);
+    cr_expect_not_null(find(r, "E"), "%zu found", r->list->count);
     cr_expect_not(warned(r, "is not conserved"));
-    cr_expect(r->found[0].proof.proved || r->verdict == NH_UNDECIDED);
+    cr_expect(r->list->found[0].proof.proved || r->verdict == NH_UNDECIDED);
     nh_analysis_free(r);
 }
 
@@ -452,7 +452,7 @@ Test(analyze, order_of_the_ansatz_and_seed, PLAIN_ONLY)
     const char *orders[] = {TERMS TRUE_WAVES WAVES POLYNOMIAL, WAVES TERMS POLYNOMIAL TRUE_WAVES};
     for (size_t i = 0; i < 2; i++) {
         nh_analysis *b = plain(SLEIGH, orders[i], 1, NH_CHART_AUTO);
-        cr_expect_eq(a->count, b->count);
+        cr_expect_eq(a->list->count, b->list->count);
         cr_expect_lt(spectra(&a->current, &b->current), 1e-8, "order %zu: %.1e", i, spectra(&a->current, &b->current));
         cr_expect_lt(spectra(&a->symmetry, &b->symmetry), 1e-8, "order %zu: %.1e", i, spectra(&a->symmetry, &b->symmetry));
         nh_analysis_free(b);
@@ -461,7 +461,7 @@ Test(analyze, order_of_the_ansatz_and_seed, PLAIN_ONLY)
     for (uint64_t seed = 2; seed < 8; seed++) {
         if (!sweep_tries(seed, 3, 6)) continue;
         nh_analysis *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, seed, NH_CHART_AUTO);
-        cr_expect(b->verdict == NH_FOUND && b->count == a->count && b->independent == a->independent);
+        cr_expect(b->verdict == NH_FOUND && b->list->count == a->list->count && b->list->independent == a->list->independent);
         cr_expect_lt(spectra(&a->current, &b->current), 0.5, "seed %d: %.1e", (int)seed, spectra(&a->current, &b->current));
         for (size_t i = 0; i < 3; i++) cr_expect_not_null(find(b, PAPER[i].formula), "seed %d: %s", (int)seed, PAPER[i].name);
         nh_analysis_free(b);
@@ -476,7 +476,7 @@ Test(analyze, repeatable, PLAIN_ONLY)
     cr_assert_eq(a->current.rank, b->current.rank);
     cr_expect_arr_eq(a->current.spectrum, b->current.spectrum, a->current.rank * sizeof(double));
     cr_expect_arr_eq(a->special[0].value, b->special[0].value, sizeof(double));
-    for (size_t i = 0; i < a->count; i++) cr_expect_eq(a->found[i].drift.drift[2], b->found[i].drift.drift[2]);
+    for (size_t i = 0; i < a->list->count; i++) cr_expect_eq(a->list->found[i].drift.drift[2], b->list->found[i].drift.drift[2]);
     nh_analysis_free(a);
     nh_analysis_free(b);
 }
@@ -501,13 +501,13 @@ Test(analyze, units, PLAIN_ONLY)
 {
     nh_analysis *a = plain(in_other_units(1, 1), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
     nh_analysis *grams = plain(in_other_units(1, 1000), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
-    cr_expect_eq(a->count, 3);
+    cr_expect_eq(a->list->count, 3);
     cr_expect_lt(spectra(&a->current, &grams->current), 1e-8, "%.1e", spectra(&a->current, &grams->current));
     cr_expect_lt(spectra(&a->symmetry, &grams->symmetry), 1e-8, "%.1e", spectra(&a->symmetry, &grams->symmetry));
     const double lengths[] = {1000, 1e-3};
     for (size_t i = 0; i < 2; i++) {
         nh_analysis *b = plain(in_other_units(lengths[i], 1), POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_AUTO);
-        cr_expect(b->verdict == NH_FOUND && b->count == 3 && b->independent == 2, "lengths x %g: %zu found", lengths[i], b->count);
+        cr_expect(b->verdict == NH_FOUND && b->list->count == 3 && b->list->independent == 2, "lengths x %g: %zu found", lengths[i], b->list->count);
         cr_expect(b->current.dimension == a->current.dimension && b->current.rank == a->current.rank, "lengths x %g", lengths[i]);
         cr_expect(b->symmetry.dimension == a->symmetry.dimension && b->symmetry.rank == a->symmetry.rank, "lengths x %g", lengths[i]);
         cr_expect(b->routes_agree, "lengths x %g: %.1e", lengths[i], b->routes_angle);
@@ -523,8 +523,8 @@ Test(analyze, charts, PLAIN_ONLY)
 {
     nh_analysis *a = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_QUASI);
     nh_analysis *b = plain(SLEIGH, POLYNOMIAL WAVES TRUE_WAVES TERMS, 1, NH_CHART_COORDINATES);
-    cr_expect(a->model->chart->quasi && !b->model->chart->quasi);
-    cr_expect(a->count == b->count && a->independent == b->independent && b->verdict == NH_FOUND);
+    cr_expect(a->question->model->chart->quasi && !b->question->model->chart->quasi);
+    cr_expect(a->list->count == b->list->count && a->list->independent == b->list->independent && b->verdict == NH_FOUND);
     cr_expect(a->current.dimension == b->current.dimension && a->current.rank == b->current.rank, "%zu of %zu, %zu of %zu", a->current.dimension,
               a->current.rank, b->current.dimension, b->current.rank);
     cr_expect_eq(a->symmetry.dimension, b->symmetry.dimension);
@@ -542,11 +542,11 @@ Test(analyze, chebyshev)
                                              "lagrangian: (q'^2 + exp(cos(q))*y'^2)/2\ndomain: {q: [-1, 1]}\n");
     const char *items = "  - product:\n      - terms: [\"y'\"]\n      - {basis: chebyshev, in: q, degree: 24}\n";
     nh_analysis *r = ask((question){.system = system, .analysis = ansatz(items)});
-    cr_assert(r->current.dimension == 1 && r->count == 0 && r->almosts == 1, "%zu null values, %zu found, %zu almost", r->current.dimension, r->count, r->almosts);
+    cr_assert(r->current.dimension == 1 && r->list->count == 0 && r->almosts == 1, "%zu null values, %zu found, %zu almost", r->current.dimension, r->list->count, r->almosts);
     cr_expect_eq(r->verdict, NH_UNDECIDED, "fitted coefficients are no certificate");
     cr_expect(r->almost[0].digits >= 10 && r->almost[0].rate < 1e-9, "%g digits, rate %.1e", r->almost[0].digits, r->almost[0].rate);
-    nh_points *points = points_of(r->model, 100, 5);
-    double off = off_multiple(r->model, points, r->almost[0].phi, formula(r->model, "exp(cos(q))*y'"));
+    nh_points *points = points_of(r->question->model, 100, 5);
+    double off = off_multiple(r->question->model, points, r->almost[0].phi, formula(r->question->model, "exp(cos(q))*y'"));
     cr_expect_lt(off, 1e-10, "off by %.1e", off);
     nh_points_free(points);
     nh_analysis_free(r);
@@ -555,9 +555,9 @@ Test(analyze, chebyshev)
 Test(analyze, a_nonlinear_constraint, PLAIN_ONLY)
 {
     nh_analysis *r = ask((question){.system = file("system.yaml", SPACE_EXPLICIT), .analysis = ansatz("  - terms: [\"x'/y'\", \"x'\", \"y'\", \"x\", \"t\"]\n")});
-    cr_assert_eq(r->count, 1, "%zu found", r->count);
+    cr_assert_eq(r->list->count, 1, "%zu found", r->list->count);
     cr_expect_not_null(find(r, "x'/y'"));
-    cr_expect(r->found[0].symmetry.kase == 2 && r->found[0].symmetry.bracket_in_distribution, "case %d", r->found[0].symmetry.kase);
+    cr_expect(r->list->found[0].symmetry.kase == 2 && r->list->found[0].symmetry.bracket_in_distribution, "case %d", r->list->found[0].symmetry.kase);
     cr_expect(warned(r, "energy is not conserved"));
     nothing_false(r);
     nh_analysis_free(r);
@@ -570,11 +570,11 @@ Test(analyze, symmetries_relative_to_the_motion, PLAIN_ONLY)
     static const char text[] = "name: pair\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                                "parameters: [{name: m, value: 1.3}, {name: n, value: 0.7}]\nlagrangian: m*x'^2/2 + n*y'^2/2 - (x - y)^4/4 - (x - y)^2\n";
     nh_analysis *r = ask((question){.system = file("system.yaml", text)});
-    const nh_model *o = r->model;
+    const nh_model *o = r->question->model;
     nh_points *at = nh_points_create(o, 20, 1, 3, NULL);
     size_t seen = 0;
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_symmetry *z = &r->found[k].symmetry;
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_symmetry *z = &r->list->found[k].symmetry;
         if (!z->along_motion) continue;
         seen++;
         nh_ex off[4];
@@ -597,7 +597,7 @@ Test(analyze, almost_conserved_is_told_apart)
 {
     nh_analysis *r = ask((question){.system = file("system.yaml", PARTICLE("rounded", "") "lagrangian: (x'^2 + y'^2 - x^2 - y^2)/2 + 1e-9*x^2*y\n"),
                                   .analysis = ansatz("  - {basis: polynomial, in: [x, y, x', y'], degree: 4}\n")});
-    cr_expect(r->verdict == NH_FOUND && r->independent == 1, "%zu independent", r->independent);
+    cr_expect(r->verdict == NH_FOUND && r->list->independent == 1, "%zu independent", r->list->independent);
     cr_expect_not_null(find(r, "x'^2 + y'^2 + x^2 + y^2 - 2e-9*x^2*y"));
     cr_assert_gt(r->almosts, 0);
     for (size_t k = 0; k < r->almosts; k++) {
@@ -616,7 +616,7 @@ Test(analyze, definitions_upon_definitions, .timeout = 120, PLAIN_ONLY)
     for (int i = 0; i < levels; i++) n += (size_t)sprintf(text + n, "  - d%d = (d%d + 1)*(d%d + 2)/(3 + d%d^2)\n", i + 1, i, i, i);
     sprintf(text + n, "lagrangian: m*x'^2/2 - d%d\n", levels);
     nh_analysis *r = ask((question){.system = file("system.yaml", text)});
-    cr_expect_eq(r->model->n, 1u);
+    cr_expect_eq(r->question->model->n, 1u);
     nothing_false(r);
     nh_analysis_free(r);
 }
@@ -632,16 +632,16 @@ Test(analyze, meanings_are_true, .timeout = 120)
         char path[100];
         snprintf(path, sizeof path, "systems/%s.yaml", systems[i]);
         nh_analysis *r = ask((question){.system = path});
-        nh_dag *d = r->model->dag;
-        for (size_t k = 0; k < r->count; k++) {
-            const nh_current *f = &r->found[k];
+        nh_dag *d = r->question->model->dag;
+        for (size_t k = 0; k < r->list->count; k++) {
+            const nh_current *f = &r->list->found[k];
             const char *momentum = strstr(f->meaning, "momentum of ");
             bool minus = !strncmp(f->meaning, "minus the ", 10), multiple = !strncmp(f->meaning, "a multiple of the ", 18);
-            nh_ex e = r->model->E;
+            nh_ex e = r->question->model->E;
             cr_expect_eq(f->energy, strstr(f->meaning, "energy") != NULL);
             if (!momentum && !f->energy) continue;
-            for (size_t s = 0; momentum && s < r->model->m; s++)
-                if (!strcmp(momentum + 12, r->system->coordinate[s].name)) e = r->model->p[s];
+            for (size_t s = 0; momentum && s < r->question->model->m; s++)
+                if (!strcmp(momentum + 12, r->question->system->coordinate[s].name)) e = r->question->model->p[s];
             cr_expect(multiple || nh_is_zero(d, nh_simplify(d, nh_sub(d, f->phi, minus ? nh_neg(d, e) : e))), "%s: %s is not the %s", systems[i], f->name, f->meaning);
             energies += f->energy;
             momenta += momentum != NULL;
@@ -662,18 +662,18 @@ Test(analyze, series_of_the_rolling_disk, .timeout = 120, PLAIN_ONLY)
     nh_analysis *r = nh_analysis_create(&request, &error);
     must(r != NULL, &error, "rolling_disk");
     size_t series = 0;
-    cr_expect(r->verdict == NH_FOUND && r->independent == 3, "%zu independent", r->independent);
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
+    cr_expect(r->verdict == NH_FOUND && r->list->independent == 3, "%zu independent", r->list->independent);
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
         if (!f->series) continue;
         series++;
         cr_expect(f->proof.digits >= 50 && f->printed_digits >= 13 && f->printed_digits < 20, "%g refined, %g printed", f->proof.digits, f->printed_digits);
         cr_expect(f->heldout < 1e-12 && f->series->low < 0.8 && f->series->high > 1.8, "%.1e on [%g, %g]", f->heldout, f->series->low, f->series->high);
         cr_expect(f->independence == NH_INDEPENDENT && f->drift.small, "drift %.1e", f->drift.drift[2]);
-        for (size_t i = 0; i < r->model->n; i++)
-            for (size_t j = 0; j < r->model->n; j++) {
-                nh_ex second = nh_model_Y(r->model, i, nh_model_Y(r->model, j, f->phi));
-                cr_expect(nh_is_zero(r->model->dag, nh_simplify(r->model->dag, second)), "not linear");
+        for (size_t i = 0; i < r->question->model->n; i++)
+            for (size_t j = 0; j < r->question->model->n; j++) {
+                nh_ex second = nh_model_Y(r->question->model, i, nh_model_Y(r->question->model, j, f->phi));
+                cr_expect(nh_is_zero(r->question->model->dag, nh_simplify(r->question->model->dag, second)), "not linear");
             }
     }
     cr_expect_eq(series, 2);
@@ -691,7 +691,7 @@ Test(analyze, kovalevskaya, .timeout = 120, PLAIN_ONLY)
     for (int special = 0; special < 2; special++) {
         snprintf(text, sizeof text, form, special ? "1.8" : "1.7");
         nh_analysis *r = ask((question){.system = file("system.yaml", text)});
-        cr_expect(r->verdict == NH_FOUND && r->independent == 2 + (size_t)special, "%zu independent", r->independent);
+        cr_expect(r->verdict == NH_FOUND && r->list->independent == 2 + (size_t)special, "%zu independent", r->list->independent);
         nothing_false(r);
         nh_analysis_free(r);
     }
@@ -714,8 +714,8 @@ Test(analyze, polar_coordinates, .timeout = 120, WHOLE_ONLY)
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         nh_analysis *r = ask((question){.system = file("system.yaml", list[i].text)});
-        cr_expect(r->verdict == NH_FOUND && r->independent == list[i].independent, "%s: %zu independent", r->system->name, r->independent);
-        if (list[i].one) cr_expect_not_null(find(r, list[i].one), "%s", r->system->name);
+        cr_expect(r->verdict == NH_FOUND && r->list->independent == list[i].independent, "%s: %zu independent", r->question->system->name, r->list->independent);
+        if (list[i].one) cr_expect_not_null(find(r, list[i].one), "%s", r->question->system->name);
         nothing_false(r);
         nh_analysis_free(r);
     }
@@ -727,7 +727,7 @@ Test(analyze, unknown_exponents)
     const char *text = "name: power\nparameters: [{name: c, value: 0.7}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                        "lagrangian: (x'^2 + y'^2)/2\nforces: [\"x = -c*x'*y'/y\"]\ndomain: {y: [0.5, 2]}\n";
     nh_analysis *r = ask((question){.system = file("system.yaml", text)});
-    cr_expect(r->verdict == NH_FOUND && r->independent == 4, "%zu independent", r->independent);
+    cr_expect(r->verdict == NH_FOUND && r->list->independent == 4, "%zu independent", r->list->independent);
     const nh_current *f = find(r, "y^c*x'");
     cr_assert_not_null(f);
     cr_expect(f->proof.all_parameters, "for all c");
@@ -743,8 +743,8 @@ Test(analyze, a_rate_with_few_digits, .timeout = 120, PLAIN_ONLY)
                        "definitions: [\"P = p'/1000\"]\ndomain: {p: [-800, 800], h: [0.5, 2.1], s: [-0.8, 0.8]}\n"
                        "lagrangian: A*(h'*cos(s) + P*sin(h)*sin(s))^2/2 + B*(-h'*sin(s) + P*sin(h)*cos(s))^2/2 + C*(P*cos(h) + s')^2/2\n";
     nh_analysis *r = ask((question){.system = file("system.yaml", text)});
-    cr_expect(r->verdict == NH_FOUND && r->independent == 4, "%zu independent", r->independent);
-    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "Phi%zu", k + 1);
+    cr_expect(r->verdict == NH_FOUND && r->list->independent == 4, "%zu independent", r->list->independent);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.all_parameters, "Phi%zu", k + 1);
     nothing_false(r);
     nh_analysis_free(r);
 }

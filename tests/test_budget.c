@@ -79,7 +79,7 @@ static nh_analysis *search(const char *system, double work, double seconds, doub
 /* All that was tried and found. */
 static bool same(const nh_analysis *a, const nh_analysis *b)
 {
-    bool equal = a->stages == b->stages && a->count == b->count && a->search == b->search && a->verdict == b->verdict && a->partial == b->partial;
+    bool equal = a->stages == b->stages && a->list->count == b->list->count && a->search == b->search && a->verdict == b->verdict && a->partial == b->partial;
     for (size_t i = 0; i < a->stages && equal; i++) {
         const nh_stage_record *s = &a->stage[i], *t = &b->stage[i];
         equal = !strcmp(s->name, t->name) && s->columns == t->columns && s->dimension == t->dimension && s->found == t->found && s->skipped == t->skipped && s->limit.value == t->limit.value;
@@ -135,7 +135,7 @@ Test(budget, names_what_brings_a_stage_in)
 Test(budget, complete_is_not_exhausted, PLAIN_ONLY)
 {
     nh_analysis *all = search("systems/free_particle.yaml", 1e4, 1e6, 1, 330);
-    cr_expect_eq(all->search, all->independent == all->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED);
-    cr_expect_eq(all->independent, all->local_maximum);
+    cr_expect_eq(all->search, all->list->independent == all->question->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED);
+    cr_expect_eq(all->list->independent, all->question->local_maximum);
     nh_analysis_free(all);
 }

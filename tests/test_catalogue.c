@@ -66,11 +66,11 @@ Test(catalogue, the_energy_belongs_to_time, WHOLE_ONLY)
     q.options.max_seconds = patience;
     nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s", error.what);
-    const nh_current *f = r->found;
-    cr_assert(r->count > 0 && !strcmp(f->meaning, "minus the energy") && f->has_symmetry);
-    cr_expect(nh_is_number(r->model->dag, f->symmetry.Z0, 1));
-    for (size_t s = 0; s < r->model->m; s++) cr_expect(nh_is_zero(r->model->dag, f->symmetry.field.space[s]), "along %s", r->system->coordinate[s].name);
-    for (size_t i = 0; i < r->model->n; i++) cr_expect(nh_is_zero(r->model->dag, f->symmetry.W[i]), "along velocity %zu", i);
+    const nh_current *f = r->list->found;
+    cr_assert(r->list->count > 0 && !strcmp(f->meaning, "minus the energy") && f->has_symmetry);
+    cr_expect(nh_is_number(r->question->model->dag, f->symmetry.Z0, 1));
+    for (size_t s = 0; s < r->question->model->m; s++) cr_expect(nh_is_zero(r->question->model->dag, f->symmetry.field.space[s]), "along %s", r->question->system->coordinate[s].name);
+    for (size_t i = 0; i < r->question->model->n; i++) cr_expect(nh_is_zero(r->question->model->dag, f->symmetry.W[i]), "along velocity %zu", i);
     nh_analysis_free(r);
 }
 
@@ -83,24 +83,24 @@ Test(catalogue, the_multiplier_form_catches_what_is_not_conserved, PLAIN_ONLY)
     nh_options_default(&q.options);
     nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s", error.what);
-    nh_points *at = nh_points_create(r->model, points, 1, 4711, &error);
+    nh_points *at = nh_points_create(r->question->model, points, 1, 4711, &error);
     cr_assert_not_null(at, "%s", error.what);
-    nh_current x = {.has_in_velocities = true, .in_velocities = r->system->coordinate[0].q}, trap = {.has_in_velocities = true};
-    multiplier_motion *motion = multiplier_motion_create(r->model, at, bits);
+    nh_current x = {.has_in_velocities = true, .in_velocities = r->question->system->coordinate[0].q}, trap = {.has_in_velocities = true};
+    multiplier_motion *motion = multiplier_motion_create(r->question->model, at, bits);
     cr_expect_gt(rate_of(motion, &x).lower, -3);
-    cr_assert_gt(r->system->not_conserved, 0);
-    trap.in_velocities = r->system->trap[0].value;
+    cr_assert_gt(r->question->system->not_conserved, 0);
+    trap.in_velocities = r->question->system->trap[0].value;
     cr_expect_gt(rate_of(motion, &trap).lower, -3);
     cr_expect(isnan(rate_of(motion, &(nh_current){0}).upper));
     /* What is false from the 25th digit on is false. */
-    nh_dag *d = r->model->dag;
-    trap.in_velocities = nh_add(d, r->found[0].in_velocities, nh_mul(d, nh_pow(d, nh_int(d, 10), nh_int(d, -25)), x.in_velocities));
-    cr_expect(rate_of(motion, &r->found[0]).upper < -80 && rate_of(motion, &trap).lower > -30, "%g and %g", rate_of(motion, &r->found[0]).upper, rate_of(motion, &trap).lower);
-    nh_named swapped = r->system->trap[0];
+    nh_dag *d = r->question->model->dag;
+    trap.in_velocities = nh_add(d, r->list->found[0].in_velocities, nh_mul(d, nh_pow(d, nh_int(d, 10), nh_int(d, -25)), x.in_velocities));
+    cr_expect(rate_of(motion, &r->list->found[0]).upper < -80 && rate_of(motion, &trap).lower > -30, "%g and %g", rate_of(motion, &r->list->found[0]).upper, rate_of(motion, &trap).lower);
+    nh_named swapped = r->question->system->trap[0];
     row o = {0};
-    r->system->trap[0] = r->system->current[0];
-    r->system->current[0] = swapped;
-    check_file(r->system, motion, &o);
+    r->question->system->trap[0] = r->question->system->current[0];
+    r->question->system->current[0] = swapped;
+    check_file(r->question->system, motion, &o);
     cr_expect_eq(o.untrue, 2, "%s", o.names);
     multiplier_motion_free(motion);
     nh_points_free(at);

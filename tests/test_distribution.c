@@ -225,14 +225,14 @@ Test(distribution, the_functions_that_constraints_conserve)
         nh_error_clear(&error);
         nh_analysis *r = analysed(FUNCTIONS[i].text, &error);
         must(r != NULL, &error, FUNCTIONS[i].text);
-        cr_expect_eq(r->constraint.hidden, FUNCTIONS[i].hidden, "%s: %zu hidden", FUNCTIONS[i].text, r->constraint.hidden);
+        cr_expect_eq(r->question->constraint.hidden, FUNCTIONS[i].hidden, "%s: %zu hidden", FUNCTIONS[i].text, r->question->constraint.hidden);
         cr_assert_eq(r->integrals, FUNCTIONS[i].found, "%s: %zu functions", FUNCTIONS[i].text, r->integrals);
         for (size_t j = 0; j < r->integrals; j++) {
-            const nh_current *f = &r->found[r->integral[j]];
-            nh_ex pair[2] = {formula(r->model, FUNCTIONS[i].function), f->phi};
+            const nh_current *f = &r->list->found[r->integral[j]];
+            nh_ex pair[2] = {formula(r->question->model, FUNCTIONS[i].function), f->phi};
             nh_independence kind[2];
-            nh_points *points = nh_points_create(r->model, 24, 1, 99, &error);
-            nh_independence_test(r->model, points, 2, pair, NULL, 1e-2, 1e-6, kind, NULL);
+            nh_points *points = nh_points_create(r->question->model, 24, 1, 99, &error);
+            nh_independence_test(r->question->model, points, 2, pair, NULL, 1e-2, 1e-6, kind, NULL);
             cr_expect_eq(kind[1], NH_DEPENDENT, "%s is not a function of %s", f->name, FUNCTIONS[i].function);
             cr_expect_eq(f->local, FUNCTIONS[i].local);
             cr_expect_str_eq(f->meaning, "integral of the constraints");

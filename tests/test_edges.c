@@ -27,20 +27,20 @@ static row judged(const char *path, const char *analysis, const char *name, doub
     q.options.max_seconds = 1e6; /* the same on every machine */
     nh_analysis *r = nh_analysis_create(&q, &error);
     cr_assert_not_null(r, "%s = %.17g: %s", name, value, error.what);
-    for (size_t j = 0; j < r->model->width; j++) {
-        r->model->chart->low[j] = fmin(r->model->chart->low[j], -1.1);
-        r->model->chart->high[j] = fmax(r->model->chart->high[j], 1.2);
+    for (size_t j = 0; j < r->question->model->width; j++) {
+        r->question->model->chart->low[j] = fmin(r->question->model->chart->low[j], -1.1);
+        r->question->model->chart->high[j] = fmax(r->question->model->chart->high[j], 1.2);
     }
-    nh_points *generic = nh_points_create(r->model, points, 1, 4711, &error);
+    nh_points *generic = nh_points_create(r->question->model, points, 1, 4711, &error);
     cr_assert_not_null(generic, "%s", error.what);
-    multiplier_motion *motion = multiplier_motion_create(r->model, generic, bits);
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
-        bool certified = f->proof.proved || fmin(f->proof.digits, f->printed_digits) >= r->options.digits;
+    multiplier_motion *motion = multiplier_motion_create(r->question->model, generic, bits);
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
+        bool certified = f->proof.proved || fmin(f->proof.digits, f->printed_digits) >= r->question->options.digits;
         if (certified ? rate_of(motion, f).upper > rounding : !holds(motion, f) && r->verdict != NH_UNDECIDED && f->drift.small) o.wrong++, note(&o, "false", f->name);
         o.uncertain += !certified;
     }
-    o.found = r->independent;
+    o.found = r->list->independent;
     multiplier_motion_free(motion);
     nh_points_free(generic);
     nh_analysis_free(r);

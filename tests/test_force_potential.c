@@ -99,8 +99,8 @@ Test(force_potential, the_energy_without_it_is_a_current)
         remove(path);
         cr_assert_not_null(r, "%s", error.what);
         bool found = false;
-        for (size_t k = 0; k < r->pieces; k++)
-            found |= r->piece[k].proof.proved && !strcmp(r->piece[k].region, row[i].region);
+        for (size_t k = 0; k < r->list->pieces; k++)
+            found |= r->list->piece[k].proof.proved && !strcmp(r->list->piece[k].region, row[i].region);
         cr_expect(found, "%s: no proved current %s", row[i].text, row[i].region);
         cr_expect_geq(r->completeness[NH_COMPLETE_IN_COORDINATES].degree, 2u, "%s", row[i].text);
         nh_analysis_free(r);

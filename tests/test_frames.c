@@ -22,17 +22,17 @@ Test(frames, a_sleigh_by_its_centre_of_mass, PLAIN_ONLY)
                  "name: sleigh\nparameters: {m: 1.5, I: 0.4, a: 0.3}\ncoordinates: [x, y, {name: phi, type: angle}]\nlagrangian: m*(x'^2 + y'^2)/2 + I*phi'^2/2\nconstraints: [\"%s\"]\n",
                  constraint[i]);
         nh_analysis *r = analysed_text(text);
-        cr_assert_geq(r->independent, 3);
+        cr_assert_geq(r->list->independent, 3);
         bool timed = false;
-        for (size_t k = 0; k < r->count; k++) {
-            cr_expect(r->found[k].proof.proved && r->found[k].proof.all_parameters, "%s", r->found[k].name);
-            timed |= nh_depends(r->model->dag, r->found[k].phi, r->system->t);
+        for (size_t k = 0; k < r->list->count; k++) {
+            cr_expect(r->list->found[k].proof.proved && r->list->found[k].proof.all_parameters, "%s", r->list->found[k].name);
+            timed |= nh_depends(r->question->model->dag, r->list->found[k].phi, r->question->system->t);
         }
         cr_expect(timed);
         const char *known = "t*sqrt(m*(x'*cos(phi) + y'*sin(phi))^2 + (I + m*a^2)*phi'^2) - (I + m*a^2)/(sqrt(m)*a)*atanh(sqrt(m)*(x'*cos(phi) + y'*sin(phi))"
                             "/sqrt(m*(x'*cos(phi) + y'*sin(phi))^2 + (I + m*a^2)*phi'^2))";
-        cr_assert(nh_system_expression_text(r->system, "test", known, 0, NULL, &e, &error) && nh_analysis_file_to_chart(r->model, e, &phi, &error), "%s", error.what);
-        cr_expect_geq(nh_prove_digits(r->model, phi, &r->options), r->options.digits);
+        cr_assert(nh_system_expression_text(r->question->system, "test", known, 0, NULL, &e, &error) && nh_analysis_file_to_chart(r->question->model, e, &phi, &error), "%s", error.what);
+        cr_expect_geq(nh_prove_digits(r->question->model, phi, &r->question->options), r->question->options.digits);
         nh_analysis_free(r);
     }
 }

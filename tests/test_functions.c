@@ -106,10 +106,10 @@ Test(functions, series_agree_with_derivatives)
 static bool has(const nh_analysis *r, const char *text)
 {
     bool found = false;
-    for (size_t k = 0; k < r->count; k++) {
-        char *own = nh_print_string(r->model->dag, r->found[k].phi);
+    for (size_t k = 0; k < r->list->count; k++) {
+        char *own = nh_print_string(r->question->model->dag, r->list->found[k].phi);
         found |= !strcmp(own, text);
-        cr_expect(r->found[k].proof.proved, "%s", own);
+        cr_expect(r->list->found[k].proof.proved, "%s", own);
         nh_free(own);
     }
     return found;
@@ -130,9 +130,9 @@ Test(functions, currents_hold_for_every_function, PLAIN_ONLY)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         nh_analysis *r = analysed_text(cases[i].text);
-        cr_expect_eq(r->count, cases[i].count, "%zu currents, expected %zu: %s", r->count, cases[i].count, cases[i].text);
+        cr_expect_eq(r->list->count, cases[i].count, "%zu currents, expected %zu: %s", r->list->count, cases[i].count, cases[i].text);
         if (cases[i].momentum) cr_expect(has(r, cases[i].momentum), "%s", cases[i].text);
-        cr_expect(r->model->system->notes > 0);
+        cr_expect(r->question->model->system->notes > 0);
         nh_analysis_free(r);
     }
 }

@@ -19,10 +19,10 @@ static void expect_swing(const char *constraint, const char *swing)
              constraint, swing);
     nh_analysis *r = analysed_text(text);
     size_t swings = 0;
-    cr_expect_eq(r->independent, 5, "%s: %zu", constraint, r->independent);
-    for (size_t k = 0; k < r->count; k++) {
-        cr_expect(r->found[k].proof.all_parameters, "%s", r->found[k].name);
-        swings += r->found[k].known && strstr(r->found[k].known, "[swing]");
+    cr_expect_eq(r->list->independent, 5, "%s: %zu", constraint, r->list->independent);
+    for (size_t k = 0; k < r->list->count; k++) {
+        cr_expect(r->list->found[k].proof.all_parameters, "%s", r->list->found[k].name);
+        swings += r->list->found[k].known && strstr(r->list->found[k].known, "[swing]");
     }
     cr_expect_geq(swings, 1, "%s", constraint);
     nh_analysis_free(r);

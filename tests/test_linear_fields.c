@@ -43,8 +43,8 @@ static void expect_these(const char *text, size_t currents, bool other_may_be_at
     remove(path);
     cr_assert(r, "%s", error.what);
     size_t free = 0;
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
         free += f->independence == NH_INDEPENDENT && f->proof.all_parameters;
         cr_expect(f->proof.all_parameters || (other_may_be_at_values && f->independence != NH_INDEPENDENT), "current %zu", k);
     }

@@ -118,8 +118,8 @@ static nh_analysis *ask(const char *text)
 static size_t exact_squares(const nh_analysis *r)
 {
     size_t count = 0;
-    for (size_t k = 0; k < r->count; k++)
-        count += r->found[k].proof.proved && r->found[k].proof.all_parameters && !nh_depends(r->model->dag, r->found[k].phi, r->system->t);
+    for (size_t k = 0; k < r->list->count; k++)
+        count += r->list->found[k].proof.proved && r->list->found[k].proof.all_parameters && !nh_depends(r->question->model->dag, r->list->found[k].phi, r->question->system->t);
     return count;
 }
 
@@ -144,7 +144,7 @@ Test(linear_motion, chains_have_their_quadratic_integrals, PLAIN_ONLY)
         nh_text_addf(&text, " - k*x%d^2/2\n%s", n, row[k].forces);
         nh_analysis *r = ask(nh_text_string(&text));
         cr_expect_eq(exact_squares(r), row[k].squares, "row %zu: %zu", k, exact_squares(r));
-        cr_expect_eq(r->independent, 2 * n, "row %zu: %zu", k, r->independent);
+        cr_expect_eq(r->list->independent, 2 * n, "row %zu: %zu", k, r->list->independent);
         nh_analysis_free(r);
         nh_text_clear(&text);
     }
@@ -155,8 +155,8 @@ Test(linear_motion, waves_of_few_masses_have_roots_as_rates, PLAIN_ONLY)
 {
     nh_analysis *r = ask("name: c\nparameters: [{name: m, value: 1.3}, {name: k, value: 2.1}]\ncoordinates: [x, y, z]\n"
                          "lagrangian: m/2*(x'^2 + y'^2 + z'^2) - k/2*(x^2 + (y - x)^2 + (z - y)^2 + z^2)\n");
-    cr_expect_eq(r->independent, 6);
-    for (size_t i = 0; i < r->count; i++) cr_expect(r->found[i].proof.proved && r->found[i].proof.all_parameters, "%zu", i);
+    cr_expect_eq(r->list->independent, 6);
+    for (size_t i = 0; i < r->list->count; i++) cr_expect(r->list->found[i].proof.proved && r->list->found[i].proof.all_parameters, "%zu", i);
     nh_analysis_free(r);
 }
 
@@ -173,8 +173,8 @@ Test(linear_motion, jordan_blocks_have_powers_of_time, PLAIN_ONLY)
         "lagrangian: (x'^2 + y'^2)/2 + w*(x*y' - y*x') + w^2*(x^2 + y^2)/2 - x*cos(w*t) + y*sin(w*t)\n"};
     for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
         nh_analysis *r = ask(text[k]);
-        cr_expect_eq(r->independent, r->local_maximum, "%s: %zu", text[k], r->independent);
-        for (size_t i = 0; i < r->count; i++) cr_expect(r->found[i].proof.all_parameters);
+        cr_expect_eq(r->list->independent, r->question->local_maximum, "%s: %zu", text[k], r->list->independent);
+        for (size_t i = 0; i < r->list->count; i++) cr_expect(r->list->found[i].proof.all_parameters);
         nh_analysis_free(r);
     }
 }
@@ -200,7 +200,7 @@ Test(linear_motion, drives_are_integrated)
         remove(path);
         cr_assert(r, "%s", error.what);
         size_t proved = 0;
-        for (size_t k = 0; k < r->count; k++) proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.all_parameters;
+        for (size_t k = 0; k < r->list->count; k++) proved += r->list->found[k].independence == NH_INDEPENDENT && r->list->found[k].proof.all_parameters;
         cr_expect_eq(proved, 2, "%s: %zu", text[i], proved);
         nh_analysis_free(r);
     }
@@ -216,7 +216,7 @@ Test(linear_motion, complex_coordinates, WHOLE_ONLY)
         snprintf(text, sizeof text, "name: g\nparameters: {a: 0.4, c: 0.2, w: 1.3}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + w*(x*y' - y*x')/2 %s", more[k]);
         nh_analysis *r = ask(text);
         size_t proved = 0;
-        for (size_t i = 0; i < r->count; i++) proved += r->found[i].independence == NH_INDEPENDENT && r->found[i].proof.all_parameters;
+        for (size_t i = 0; i < r->list->count; i++) proved += r->list->found[i].independence == NH_INDEPENDENT && r->list->found[i].proof.all_parameters;
         cr_expect_eq(proved, 4, "%zu: %zu", k, proved);
         nh_analysis_free(r);
     }
@@ -251,8 +251,8 @@ Test(linear_motion, functions_of_the_coordinates, PLAIN_ONLY)
         snprintf(whole, sizeof whole, "name: hidden\n%s", text[k]);
         nh_analysis *r = ask(whole);
         size_t proved = 0;
-        for (size_t i = 0; i < r->count; i++) proved += r->found[i].independence == NH_INDEPENDENT && r->found[i].proof.all_parameters;
-        cr_expect_eq(proved, r->local_maximum, "%s: %zu of %zu", text[k], proved, r->local_maximum);
+        for (size_t i = 0; i < r->list->count; i++) proved += r->list->found[i].independence == NH_INDEPENDENT && r->list->found[i].proof.all_parameters;
+        cr_expect_eq(proved, r->question->local_maximum, "%s: %zu of %zu", text[k], proved, r->question->local_maximum);
         nh_analysis_free(r);
     }
 }

@@ -23,9 +23,9 @@ static void expect_complete(const char *name, const char *text, size_t proved, s
     cr_assert_not_null(r, "%s: %s", name, error.what);
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
     cr_expect(c->counted && c->degree >= degree && !c->missing_at, "%s: complete to degree %zu", name, c->degree);
-    cr_expect_eq(r->independent, proved, "%s: %zu currents", name, r->independent);
-    cr_expect_eq(r->count, proved, "%s: %zu are listed", name, r->count);
-    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.proved, "%s: Phi%zu is not proved", name, k + 1);
+    cr_expect_eq(r->list->independent, proved, "%s: %zu currents", name, r->list->independent);
+    cr_expect_eq(r->list->count, proved, "%s: %zu are listed", name, r->list->count);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.proved, "%s: Phi%zu is not proved", name, k + 1);
     row o = {.rate = -INFINITY};
     compare(r, &o);
     cr_expect_eq(o.missing + o.wrong + o.untrue, 0, "%s: %s", name, o.names);
@@ -88,8 +88,8 @@ Test(magnitudes, a_body_of_any_constant_speed, PLAIN_ONLY)
         char text[300];
         snprintf(text, sizeof text, "name: constant\nparameters: {c: %g, g: 9.8}\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - g*z\nconstraints: [\"x'^2 + y'^2 + z'^2 = c^2\"]\n", speed[i]);
         nh_analysis *r = analysed_text(text);
-        cr_expect_eq(r->independent, 5, "%g: %zu", speed[i], r->independent);
-        for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.proved, "%g: Phi%zu is not proved", speed[i], k + 1);
+        cr_expect_eq(r->list->independent, 5, "%g: %zu", speed[i], r->list->independent);
+        for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.proved, "%g: Phi%zu is not proved", speed[i], k + 1);
         nh_analysis_free(r);
     }
 }

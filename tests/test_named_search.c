@@ -33,10 +33,10 @@ static nh_analysis *ask_text(const char *text)
 static void expect_named(nh_analysis *r, size_t count, const char *name, size_t named)
 {
     size_t seen = 0;
-    cr_assert_eq(r->independent, count, "%zu currents, expected %zu with %s", r->independent, count, name);
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
-        char *text = nh_print_string(r->model->dag, f->phi);
+    cr_assert_eq(r->list->independent, count, "%zu currents, expected %zu with %s", r->list->independent, count, name);
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
+        char *text = nh_print_string(r->question->model->dag, f->phi);
         cr_assert_null(f->series, "a series beside %s", name);
         cr_assert(f->proof.proved && f->proof.all_parameters, "%s", text);
         cr_assert_lt(f->heldout, 1e-9, "%s: %g", text, f->heldout);
@@ -114,8 +114,8 @@ Test(named_search, gauss, PLAIN_ONLY)
 Test(named_search, rolling_disk, .timeout = 120, PLAIN_ONLY)
 {
     nh_analysis *r = ask("systems/rolling_disk.yaml");
-    for (size_t k = 0; k < r->count; k++) {
-        char *text = nh_print_string(r->model->dag, r->found[k].phi);
+    for (size_t k = 0; k < r->list->count; k++) {
+        char *text = nh_print_string(r->question->model->dag, r->list->found[k].phi);
         cr_assert(!strstr(text, "gauss_f") || strstr(text, "gauss_f(1, m*C*r^2/(A*(C + m*r^2)), 1, "), "%s", text);
         nh_free(text);
     }
@@ -146,11 +146,11 @@ Test(named_search, conjugate_points_elementary, PLAIN_ONLY)
 static void expect_equation(nh_analysis *r, size_t series, const char *equation)
 {
     size_t seen = 0;
-    for (size_t k = 0; k < r->count; k++) {
-        if (!r->found[k].series) continue;
+    for (size_t k = 0; k < r->list->count; k++) {
+        if (!r->list->found[k].series) continue;
         seen++;
-        cr_assert_not_null(r->found[k].series->equation);
-        cr_assert(strstr(r->found[k].series->equation, equation), "%s", r->found[k].series->equation);
+        cr_assert_not_null(r->list->found[k].series->equation);
+        cr_assert(strstr(r->list->found[k].series->equation, equation), "%s", r->list->found[k].series->equation);
     }
     cr_assert_eq(seen, series);
     nh_analysis_free(r);

@@ -55,15 +55,15 @@ static void depends(const nh_analysis *r, const char *known, const char *text)
 {
     nh_error error;
     nh_error_clear(&error);
-    nh_dag *d = r->model->dag;
-    nh_ex *phi = nh_alloc_array(r->count + 1, sizeof *phi), f = formula(r->model, known);
-    nh_independence *kind = nh_alloc_array(r->count + 1, sizeof *kind);
-    cr_expect_eq(nh_normal_is_zero(d, nh_model_gamma(r->model, f), 0), NH_ZERO, "%s is no integral of %s", known, text);
-    for (size_t i = 0; i < r->count; i++) phi[i] = r->found[i].phi;
-    phi[r->count] = f;
-    nh_points *points = nh_points_create(r->model, 24, 1, 99, &error);
-    nh_independence_test(r->model, points, r->count + 1, phi, NULL, 1e-2, 1e-6, kind, NULL);
-    cr_expect_eq(kind[r->count], NH_DEPENDENT, "%s is no function of what was found: %s", known, text);
+    nh_dag *d = r->question->model->dag;
+    nh_ex *phi = nh_alloc_array(r->list->count + 1, sizeof *phi), f = formula(r->question->model, known);
+    nh_independence *kind = nh_alloc_array(r->list->count + 1, sizeof *kind);
+    cr_expect_eq(nh_normal_is_zero(d, nh_model_gamma(r->question->model, f), 0), NH_ZERO, "%s is no integral of %s", known, text);
+    for (size_t i = 0; i < r->list->count; i++) phi[i] = r->list->found[i].phi;
+    phi[r->list->count] = f;
+    nh_points *points = nh_points_create(r->question->model, 24, 1, 99, &error);
+    nh_independence_test(r->question->model, points, r->list->count + 1, phi, NULL, 1e-2, 1e-6, kind, NULL);
+    cr_expect_eq(kind[r->list->count], NH_DEPENDENT, "%s is no function of what was found: %s", known, text);
     nh_points_free(points);
     nh_free(kind);
     nh_free(phi);
@@ -75,10 +75,10 @@ Test(nonstandard, known_integrals_are_found)
         const member *m = &MEMBERS[i];
         if (!sweep_tries(i, 2, 4)) continue;
         nh_analysis *r = analysed(m->text);
-        cr_expect_eq(r->independent, m->found, "%s: %zu found", m->text, r->independent);
+        cr_expect_eq(r->list->independent, m->found, "%s: %zu found", m->text, r->list->independent);
         if (m->equation) {
-            nh_ex rest = nh_sub(r->model->dag, r->model->a[0], formula(r->model, m->equation));
-            cr_expect_eq(nh_normal_is_zero(r->model->dag, rest, 0), NH_ZERO, "another equation than x'' = %s", m->equation);
+            nh_ex rest = nh_sub(r->question->model->dag, r->question->model->a[0], formula(r->question->model, m->equation));
+            cr_expect_eq(nh_normal_is_zero(r->question->model->dag, rest, 0), NH_ZERO, "another equation than x'' = %s", m->equation);
         }
         for (size_t k = 0; k < 2 && m->known[k]; k++) depends(r, m->known[k], m->text);
         nh_analysis_free(r);

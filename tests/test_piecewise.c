@@ -163,21 +163,21 @@ Test(piecewise, currents_are_continuous_along_motions, PLAIN_ONLY)
         row o = {.rate = -INFINITY};
         compare(r, &o);
         cr_expect_eq(o.missing + o.wrong, 0, "%s: %s", p->name, o.names);
-        cr_expect_eq(r->independent, p->independent, "%s: %zu independent", p->name, r->independent);
+        cr_expect_eq(r->list->independent, p->independent, "%s: %zu independent", p->name, r->list->independent);
         cr_expect_eq(r->verdict, p->independent ? NH_FOUND : NH_UNDECIDED, "%s", p->name);
-        for (size_t k = 0; k < r->count; k++) {
-            double change = largest_change(r->model, r->found[k].phi);
-            cr_expect(change < 5e-3, "%s: %s changes by %.1e", p->name, r->found[k].name, change);
+        for (size_t k = 0; k < r->list->count; k++) {
+            double change = largest_change(r->question->model, r->list->found[k].phi);
+            cr_expect(change < 5e-3, "%s: %s changes by %.1e", p->name, r->list->found[k].name, change);
         }
         bool listed = !p->region;
-        for (size_t k = 0; k < r->pieces; k++) {
-            double change = largest_change(r->model, r->piece[k].phi);
-            listed |= p->region && !strcmp(p->region, r->piece[k].region);
-            cr_expect(change > 0.02, "%s: the piece %s, %s, changes by %.1e only", p->name, r->piece[k].name, r->piece[k].region, change);
+        for (size_t k = 0; k < r->list->pieces; k++) {
+            double change = largest_change(r->question->model, r->list->piece[k].phi);
+            listed |= p->region && !strcmp(p->region, r->list->piece[k].region);
+            cr_expect(change > 0.02, "%s: the piece %s, %s, changes by %.1e only", p->name, r->list->piece[k].name, r->list->piece[k].region, change);
         }
         cr_expect(listed, "%s: nothing holds %s", p->name, p->region);
         for (size_t j = 0; r->motion && j < r->motion->constants && !r->motion->region; j++) {
-            double change = r->motion->constant[j].at_start ? 0 : largest_change(r->model, r->motion->constant[j].value);
+            double change = r->motion->constant[j].at_start ? 0 : largest_change(r->question->model, r->motion->constant[j].value);
             cr_expect(change < 5e-3, "%s: constant %zu of the explicit motion changes by %.1e", p->name, j + 1, change);
         }
         nh_analysis_free(r);
@@ -282,11 +282,11 @@ Test(piecewise, motions_go_through_where_the_chart_ends, WHOLE_ONLY)
         bool listed = false;
         snprintf(text, sizeof text, "coordinates: [x, y, z]\n%s", of[i].text);
         nh_analysis *r = analysed(text);
-        for (size_t k = 0; k < r->count + r->furthers; k++) {
-            const nh_current *f = k < r->count ? &r->found[k] : &r->further[k - r->count].current;
+        for (size_t k = 0; k < r->list->count + r->list->furthers; k++) {
+            const nh_current *f = k < r->list->count ? &r->list->found[k] : &r->list->further[k - r->list->count].current;
             cr_assert(f->has_in_velocities);
-            double change = f->region ? 0 : change_under_constraint(r->model, f->in_velocities);
-            char *printed = nh_print_string(r->model->dag, f->in_velocities);
+            double change = f->region ? 0 : change_under_constraint(r->question->model, f->in_velocities);
+            char *printed = nh_print_string(r->question->model->dag, f->in_velocities);
             listed |= !strcmp(printed, of[i].smooth);
             nh_free(printed);
             cr_expect(change < 5e-3, "%s: %s changes by %.1e", of[i].text, f->name, change);
@@ -308,11 +308,11 @@ Test(piecewise, motions_pass_from_branch_to_branch, PLAIN_ONLY)
     } asked[] = {{"v^2*x'*atan(sqrt(x'^2+y'^2)/z')/sqrt(x'^2+y'^2) - g*x", false}, {"v^2*x'*atan(z'/sqrt(x'^2+y'^2))/sqrt(x'^2+y'^2) + g*x", true}};
     nh_analysis *r = analysed(projectile);
     size_t independent = 0;
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
         cr_assert(f->has_in_velocities);
         independent += f->independence == NH_INDEPENDENT;
-        double change = change_under_constraint(r->model, f->in_velocities);
+        double change = change_under_constraint(r->question->model, f->in_velocities);
         cr_expect_lt(change, 1e-7, "%s changes by %.1e", f->name, change);
         cr_expect(f->on_both, "%s", f->name);
     }
@@ -350,11 +350,11 @@ Test(piecewise, an_impulse_is_no_passage, PLAIN_ONLY)
     };
     for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
         nh_analysis *r = analysed(of[i].text);
-        cr_expect_eq(r->independent > 0, !of[i].region, "%s: %zu", of[i].text, r->independent);
-        cr_expect_eq(r->pieces > 0, of[i].region != NULL, "%s: %zu", of[i].text, r->pieces);
-        cr_expect_eq(nh_analysis_to_the_end(r), r->pieces, "%s: motions end at the wall", of[i].text);
+        cr_expect_eq(r->list->independent > 0, !of[i].region, "%s: %zu", of[i].text, r->list->independent);
+        cr_expect_eq(r->list->pieces > 0, of[i].region != NULL, "%s: %zu", of[i].text, r->list->pieces);
+        cr_expect_eq(nh_analysis_to_the_end(r), r->list->pieces, "%s: motions end at the wall", of[i].text);
         cr_expect_eq(r->verdict, NH_FOUND, "%s", of[i].text);
-        for (size_t k = 0; k < r->pieces; k++) cr_expect(of[i].region && !strcmp(r->piece[k].region, of[i].region), "%s: %s", of[i].text, r->piece[k].region);
+        for (size_t k = 0; k < r->list->pieces; k++) cr_expect(of[i].region && !strcmp(r->list->piece[k].region, of[i].region), "%s: %s", of[i].text, r->list->piece[k].region);
         nh_analysis_free(r);
     }
 }
@@ -371,10 +371,10 @@ Test(piecewise, roots_whose_product_has_none, WHOLE_ONLY)
                  "lagrangian: (x'^2 + y'^2)/2 + a/r - b*sqrt(r + x)/r - c*sqrt(r - x)/r\ndomain: {x: [0.4, 1], y: %s}\n", domain[i]);
         nh_analysis *r = analysed(text);
         size_t proved = 0;
-        for (size_t k = 0; k < r->count; k++) proved += r->found[k].proof.all_parameters && !r->found[k].region;
+        for (size_t k = 0; k < r->list->count; k++) proved += r->list->found[k].proof.all_parameters && !r->list->found[k].region;
         cr_expect_eq(proved, 2);
-        cr_assert_eq(r->pieces, 1);
-        cr_expect(r->piece[0].proof.all_parameters && r->piece[0].proof.sided && !strcmp(r->piece[0].region, region[i]), "%s", r->piece[0].region);
+        cr_assert_eq(r->list->pieces, 1);
+        cr_expect(r->list->piece[0].proof.all_parameters && r->list->piece[0].proof.sided && !strcmp(r->list->piece[0].region, region[i]), "%s", r->list->piece[0].region);
         cr_expect_eq(r->completeness[0].missing_at, 0);
         nh_analysis_free(r);
     }
@@ -416,8 +416,8 @@ Test(piecewise, angles_are_proved_for_all_parameters, WHOLE_ONLY)
 {
     nh_analysis *r = analysed("parameters: {a: 0.4}\ncoordinates: [{name: p, type: angle}, {name: h, type: angle}, {name: s, type: angle}]\n"
                               "lagrangian: (h'^2 + p'^2*sin(h)^2 + a*(s' + p'*cos(h))^2)/2\ndomain: {h: [0.6, 1.3]}\n");
-    cr_expect_eq(r->independent, 5);
-    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "%s", r->found[k].name);
+    cr_expect_eq(r->list->independent, 5);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.all_parameters, "%s", r->list->found[k].name);
     nh_analysis_free(r);
 }
 
@@ -442,18 +442,18 @@ Test(piecewise, the_sides_of_a_kink_are_searched)
         nh_analysis *r = analysed(side[i].text);
         nh_error error = {0};
         nh_ex e, phi;
-        cr_expect_eq(r->independent, side[i].independent, "%zu: %zu", i, r->independent);
+        cr_expect_eq(r->list->independent, side[i].independent, "%zu: %zu", i, r->list->independent);
         nh_text words;
         nh_text_init(&words);
         nh_analysis_answer_headline(r, &words);
-        if (!r->independent) cr_expect(strstr(nh_text_string(&words), "Nothing was found that is conserved along all motions."), "%s", nh_text_string(&words));
+        if (!r->list->independent) cr_expect(strstr(nh_text_string(&words), "Nothing was found that is conserved along all motions."), "%s", nh_text_string(&words));
         nh_text_clear(&words);
-        cr_assert_eq(r->pieces, side[i].pieces, "%zu: %zu pieces", i, r->pieces);
+        cr_assert_eq(r->list->pieces, side[i].pieces, "%zu: %zu pieces", i, r->list->pieces);
         cr_expect(r->completeness[NH_COMPLETE_IN_COORDINATES].degree == 6 && !r->completeness[NH_COMPLETE_IN_COORDINATES].missing_at, "%zu", i);
-        for (size_t k = 0; k < r->pieces; k++)
-            cr_expect(r->piece[k].proof.proved && r->piece[k].proof.all_parameters, "%s", r->piece[k].name);
-        cr_assert(nh_system_expression_text(r->system, "test", side[i].known, 0, NULL, &e, &error) && nh_analysis_file_to_chart(r->model, e, &phi, &error), "%s", error.what);
-        cr_expect_geq(nh_prove_digits(r->model, phi, &r->options), r->options.digits, "%s", side[i].known);
+        for (size_t k = 0; k < r->list->pieces; k++)
+            cr_expect(r->list->piece[k].proof.proved && r->list->piece[k].proof.all_parameters, "%s", r->list->piece[k].name);
+        cr_assert(nh_system_expression_text(r->question->system, "test", side[i].known, 0, NULL, &e, &error) && nh_analysis_file_to_chart(r->question->model, e, &phi, &error), "%s", error.what);
+        cr_expect_geq(nh_prove_digits(r->question->model, phi, &r->question->options), r->question->options.digits, "%s", side[i].known);
         nh_analysis_free(r);
     }
 }

@@ -30,7 +30,7 @@ static nh_analysis *analysed(const char *text, double construct_work) { return a
 static size_t independent_and_proved(const nh_analysis *r)
 {
     size_t n = 0;
-    for (size_t k = 0; k < r->count; k++) n += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.proved;
+    for (size_t k = 0; k < r->list->count; k++) n += r->list->found[k].independence == NH_INDEPENDENT && r->list->found[k].proof.proved;
     return n;
 }
 
@@ -59,7 +59,7 @@ Test(published, a_frequency_that_whole_numbers_do_not_shift, WHOLE_ONLY)
                               "lagrangian: M*(x'^2 + y'^2)/2 + J*h'^2/2\nconstraints: [\"x'*sin(h) - y'*cos(h) - d*h' = 0.3\"]\n", -1);
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
     cr_expect(c->counted && c->degree >= 4 && !c->missing_at, "complete to degree %zu", c->degree);
-    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "Phi%zu", k + 1);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.all_parameters, "Phi%zu", k + 1);
     cr_expect_eq(independent_and_proved(r), 2);
     nh_analysis_free(r);
 }
@@ -68,7 +68,7 @@ Test(published, a_frequency_that_whole_numbers_do_not_shift, WHOLE_ONLY)
 Test(published, what_is_constructed_is_proved_for_all_parameters, PLAIN_ONLY)
 {
     nh_analysis *r = analysed(PUBLISHED[1].text, -1);
-    for (size_t k = 0; k < r->count; k++) cr_expect(!r->found[k].proof.proved || r->found[k].proof.all_parameters, "Phi%zu", k + 1);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(!r->list->found[k].proof.proved || r->list->found[k].proof.all_parameters, "Phi%zu", k + 1);
     nh_analysis_free(r);
 }
 
@@ -85,7 +85,7 @@ Test(published, a_root_that_the_system_has_is_no_second_letter, PLAIN_ONLY)
 {
     nh_analysis *r = analysed_row("Perlick, first family");
     cr_expect_eq(independent_and_proved(r), 3);
-    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "Phi%zu", k + 1);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.all_parameters, "Phi%zu", k + 1);
     cr_expect_eq(r->completeness[NH_COMPLETE_IN_COORDINATES].missing_at, 0);
     nh_analysis_free(r);
 }
@@ -95,7 +95,7 @@ Test(published, quotients_of_parameters_in_what_is_constructed, WHOLE_ONLY)
 {
     nh_analysis *r = analysed_row("vertical disk on a turntable");
     cr_expect_eq(independent_and_proved(r), 5);
-    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "Phi%zu", k + 1);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.all_parameters, "Phi%zu", k + 1);
     nh_analysis_free(r);
 }
 
@@ -122,7 +122,7 @@ Test(published, rates_in_time_are_roots_of_parameters, WHOLE_ONLY)
 {
     nh_analysis *r = analysed_row("Tremblay, Turbiner and Winternitz, k = 2, with a spring");
     cr_expect_eq(independent_and_proved(r), 4);
-    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.all_parameters, "%s", r->found[k].name);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.all_parameters, "%s", r->list->found[k].name);
     nh_analysis_free(r);
 }
 
@@ -130,7 +130,7 @@ Test(published, without_work_nothing_is_constructed_and_that_is_said)
 {
     nh_analysis *r = analysed(PUBLISHED[0].text, 0);
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    cr_expect_eq(r->independent, 1);
+    cr_expect_eq(r->list->independent, 1);
     cr_expect_eq(c->missing_at, 4);
     cr_expect_eq(c->missing, 1);
     nh_analysis_free(r);
@@ -168,9 +168,9 @@ Test(published, integrals_that_depend_on_others_and_their_relations, PLAIN_ONLY)
 {
     nh_analysis *r = analysed("parameters: {m: 1.3, k: 0.8}\ncoordinates: [x, y, z]\nlagrangian: m*(x'^2 + y'^2 + z'^2)/2 + k/sqrt(x^2 + y^2 + z^2)\n", -1);
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    cr_assert_eq(r->independent, 5);
-    cr_assert_eq(r->furthers, 2);
-    for (size_t k = 0; k < r->furthers; k++) cr_expect(r->further[k].degree == 2 && r->further[k].current.proof.all_parameters);
+    cr_assert_eq(r->list->independent, 5);
+    cr_assert_eq(r->list->furthers, 2);
+    for (size_t k = 0; k < r->list->furthers; k++) cr_expect(r->list->further[k].degree == 2 && r->list->further[k].current.proof.all_parameters);
     cr_expect(c->linear && c->generic && c->degree == 4);
     cr_expect_eq(c->count.row[3].bound, 80, "%zu", c->count.row[3].bound);
     cr_assert_eq(r->relations, 2);
@@ -185,8 +185,8 @@ Test(published, a_cubic_integral_whose_square_is_a_polynomial)
 {
     nh_analysis *r = analysed("parameters: {w: 0.8, a: 0.3, b: 0.5}\n" PLANE "w^2*(x^2 + y^2)/2 - a/x^2 - b/y^2\n" QUADRANT, -1);
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    cr_assert_eq(r->furthers, 3);
-    cr_expect_eq(r->further[2].degree, 3);
+    cr_assert_eq(r->list->furthers, 3);
+    cr_expect_eq(r->list->further[2].degree, 3);
     cr_expect(c->linear && c->degree == 6);
     cr_expect_eq(r->relations, 1);
     cr_expect_str_eq(r->relation[0].left, "Phi7^2");
@@ -197,8 +197,8 @@ Test(published, a_cubic_integral_whose_square_is_a_polynomial)
 Test(published, generic_systems_have_no_further_integrals)
 {
     nh_analysis *r = analysed(PLANE "x^4 - x*y^3 - x^2*y\n", -1);
-    cr_expect_eq(r->count, 1);
-    cr_expect_eq(r->furthers, 0);
+    cr_expect_eq(r->list->count, 1);
+    cr_expect_eq(r->list->furthers, 0);
     cr_expect_eq(r->relations, 0);
     cr_expect(r->completeness[NH_COMPLETE_IN_COORDINATES].linear);
     nh_analysis_free(r);
@@ -213,7 +213,7 @@ Test(published, frequencies_that_are_roots_are_followed, PLAIN_ONLY)
         snprintf(text, sizeof text, "parameters: {a: %s}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - a*x^2/2 + x*cos(t) - y^4\n", value[i]);
         nh_analysis *r = analysed(text, -1);
         const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_TIME];
-        cr_expect(r->independent == 3 && c->counted && c->degree >= 4 && !c->missing_at, "a = %s: %zu, complete to degree %zu", value[i], r->independent, c->degree);
+        cr_expect(r->list->independent == 3 && c->counted && c->degree >= 4 && !c->missing_at, "a = %s: %zu, complete to degree %zu", value[i], r->list->independent, c->degree);
         nh_analysis_free(r);
     }
 }

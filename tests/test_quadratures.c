@@ -59,7 +59,7 @@ typedef struct {
 
 static flow flow_of(const nh_analysis *r)
 {
-    const nh_model *o = r->model;
+    const nh_model *o = r->question->model;
     const nh_explicit_motion *m = r->motion;
     flow f = {.m = m, .n = 1 + o->m + o->n, .letters = m->constants + m->roots + m->integrals};
     nh_ex e[most_values], symbol[most_values];
@@ -157,10 +157,10 @@ static size_t follow(const nh_analysis *r, const char *name, const double *start
     if (good) formulas(&f, y, value);
     for (size_t j = 0; j < m->constants && good; j++)
         cr_expect(m->constant[j].at_start || fabs(last[j] - f.letter[j]) <= 1e-6 * (1 + fabs(f.letter[j])), "%s: %s changes from %g to %g", name,
-                  nh_name_of(r->model->dag, m->constant[j].symbol), f.letter[j], last[j]);
+                  nh_name_of(r->question->model->dag, m->constant[j].symbol), f.letter[j], last[j]);
     for (size_t i = 0; i < m->states && good; i++) {
         double formula = value[m->roots + m->integrals + i];
-        cr_expect(!m->is_known[i] || fabs(formula - y[i]) <= 1e-6 * (1 + fabs(y[i])), "%s: %s is %g, its formula %g", name, nh_name_of(r->model->dag, m->state[i]), y[i], formula);
+        cr_expect(!m->is_known[i] || fabs(formula - y[i]) <= 1e-6 * (1 + fabs(y[i])), "%s: %s is %g, its formula %g", name, nh_name_of(r->question->model->dag, m->state[i]), y[i], formula);
     }
     flow_free(&f);
     return good;
@@ -170,12 +170,12 @@ static size_t follow(const nh_analysis *r, const char *name, const double *start
 static void check(nh_analysis *r, const char *name, size_t independent, size_t known)
 {
     enum { starts = 12 };
-    cr_expect_eq(r->independent, independent, "%s: %zu independent currents", name, r->independent);
-    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits, "%s: %s", name, r->found[k].name);
+    cr_expect_eq(r->list->independent, independent, "%s: %zu independent currents", name, r->list->independent);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.proved || r->list->found[k].proof.digits >= r->question->options.digits, "%s: %s", name, r->list->found[k].name);
     cr_assert_not_null(r->motion, "%s", name);
     cr_expect_eq(r->motion->known, known, "%s: %zu states", name, r->motion->known);
     nh_error error = {0};
-    nh_points *points = nh_points_create(r->model, starts, 1, 7, &error);
+    nh_points *points = nh_points_create(r->question->model, starts, 1, 7, &error);
     size_t followed = 0;
     cr_assert_not_null(points, "%s", error.what);
     for (size_t p = 0; p < starts; p++) {
@@ -218,9 +218,9 @@ Test(quadratures, time_of_the_sleigh, PLAIN_ONLY)
 {
     nh_analysis *r = ask_file("systems/sleigh.yaml");
     bool found = false;
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
-        found |= nh_depends(r->model->dag, f->phi, r->system->t) && f->proof.all_parameters && !f->local;
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
+        found |= nh_depends(r->question->model->dag, f->phi, r->question->system->t) && f->proof.all_parameters && !f->local;
     }
     cr_expect(found);
     nh_analysis_free(r);
@@ -231,7 +231,7 @@ Test(quadratures, time_of_the_sleigh, PLAIN_ONLY)
 static void all_proved(nh_analysis *r, size_t count)
 {
     size_t proved = 0;
-    for (size_t k = 0; k < r->count; k++) proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.all_parameters;
+    for (size_t k = 0; k < r->list->count; k++) proved += r->list->found[k].independence == NH_INDEPENDENT && r->list->found[k].proof.all_parameters;
     cr_expect_eq(proved, count, "%zu", proved);
     nh_analysis_free(r);
 }
@@ -269,9 +269,9 @@ Test(quadratures, polynomials_with_area_functions, PLAIN_ONLY)
                  known[i].constraint);
         nh_analysis *r = ask(text);
         bool found = false;
-        for (size_t k = 0; k < r->count; k++) {
-            char *phi = nh_print_string(r->model->dag, r->found[k].phi);
-            found |= strstr(phi, known[i].area) && r->found[k].proof.all_parameters;
+        for (size_t k = 0; k < r->list->count; k++) {
+            char *phi = nh_print_string(r->question->model->dag, r->list->found[k].phi);
+            found |= strstr(phi, known[i].area) && r->list->found[k].proof.all_parameters;
             cr_expect_not(strstr(phi, "log("), "%s", phi);
             cr_expect_not(strstr(phi, "/x'") || strstr(phi, "/y'"), "%s", phi);
             nh_free(phi);
@@ -290,10 +290,10 @@ Test(quadratures, drag_along_the_path)
                          "coordinates: [{name: x, type: length}, {name: y, type: length}]\nlagrangian: m/2*(x'^2 + y'^2)\n"
                          "forces: [\"x = -c*x'*sqrt(x'^2 + y'^2)\", \"y = -c*y'*sqrt(x'^2 + y'^2)\"]\n");
     cr_assert_not_null(r);
-    cr_expect_eq(r->independent, 4);
-    for (size_t k = 0; k < r->count; k++) {
-        char *phi = nh_print_string(r->model->dag, r->found[k].phi);
-        cr_expect(r->found[k].proof.all_parameters, "%s", phi);
+    cr_expect_eq(r->list->independent, 4);
+    for (size_t k = 0; k < r->list->count; k++) {
+        char *phi = nh_print_string(r->question->model->dag, r->list->found[k].phi);
+        cr_expect(r->list->found[k].proof.all_parameters, "%s", phi);
         cr_expect_null(strstr(phi, "sign"), "%s", phi);
         nh_free(phi);
     }
@@ -337,12 +337,12 @@ static nh_analysis *ask_car(const char *inertia, const char *function)
              "constraints: [\"x'*sin(th) - y'*cos(th) = 0\", \"x'*sin(th + ph) - y'*cos(th + ph) - l*th'*cos(ph) = 0\"]\n", inertia);
     nh_analysis *r = ask(text);
     size_t seen = 0;
-    for (size_t k = 0; k < r->count; k++) {
-        char *phi = nh_print_string(r->model->dag, r->found[k].phi);
+    for (size_t k = 0; k < r->list->count; k++) {
+        char *phi = nh_print_string(r->question->model->dag, r->list->found[k].phi);
         bool has = strstr(phi, function) != NULL;
         nh_ex positive[NH_MOST_REAL_WHERE];
-        size_t wheres = nh_real_where(r->model, r->found[k].phi, positive);
-        cr_expect(!has || (r->found[k].proof.all_parameters && wheres), "%s", phi);
+        size_t wheres = nh_real_where(r->question->model, r->list->found[k].phi, positive);
+        cr_expect(!has || (r->list->found[k].proof.all_parameters && wheres), "%s", phi);
         cr_expect(has || !wheres, "%s", phi);
         seen += has;
         nh_free(phi);
@@ -359,9 +359,9 @@ Test(quadratures, a_formula_has_no_poles_of_its_derivation)
                          "coordinates: [x]\nlagrangian: m*x'^2/2 - k*x^2/2 + F*x*cos(w*t)\n");
     const nh_explicit_motion *m = r->motion;
     cr_assert(m && m->proved && m->known == 3 && m->constants == 2);
-    nh_ex symbol[3] = {r->model->system->t, m->constant[0].symbol, m->constant[1].symbol};
+    nh_ex symbol[3] = {r->question->model->system->t, m->constant[0].symbol, m->constant[1].symbol};
     double start[3] = {0, 0.4, 0.3}, x;
-    nh_tape *tape = nh_tape_create(r->model->dag, 3, symbol, 1, &m->value[1], 4, r->model->parameter, r->model->parameter_value);
+    nh_tape *tape = nh_tape_create(r->question->model->dag, 3, symbol, 1, &m->value[1], 4, r->question->model->parameter, r->question->model->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     nh_tape_eval(tape, work, start, &x);
     cr_expect(isfinite(x), "x is %g at t = 0", x);
@@ -383,9 +383,9 @@ Test(quadratures, digits_that_are_lost)
     nh_analysis *r = ask_until("name: half_plane\nparameters: [{name: k, value: 1.1}]\ncoordinates: [{name: x, type: length}, {name: y, type: length}]\n"
                                "domain: {y: [0.5, 1.5]}\nlagrangian: (x'^2 + y'^2)/(2*y^2) - k*y\n", 8);
     size_t lost = 0, said = 0;
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_drift *d = &r->found[k].drift;
-        cr_expect(d->explained, "%s drifts by %g", r->found[k].name, d->drift[NH_DRIFT_RUNS - 1]);
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_drift *d = &r->list->found[k].drift;
+        cr_expect(d->explained, "%s drifts by %g", r->list->found[k].name, d->drift[NH_DRIFT_RUNS - 1]);
         lost += d->in_doubles > 100 * d->drift[NH_DRIFT_RUNS - 1] && d->drift[NH_DRIFT_RUNS - 1] < d->drift[0] / 100;
     }
     for (size_t i = 0; i < r->warnings; i++) said += strstr(r->warning[i], "loses digits") != NULL;
@@ -399,11 +399,11 @@ Test(quadratures, digits_that_are_lost)
 static void complete(const char *text, size_t independent)
 {
     nh_analysis *r = ask(text);
-    cr_expect_eq(r->independent, independent, "%s: %zu instead of %zu", text, r->independent, independent);
-    for (size_t k = 0; k < r->count; k++) {
-        double drift = r->found[k].drift.drift[NH_DRIFT_RUNS - 1];
-        char *phi = nh_print_string(r->model->dag, r->found[k].phi);
-        cr_expect(r->found[k].proof.proved, "%s: %s", text, phi);
+    cr_expect_eq(r->list->independent, independent, "%s: %zu instead of %zu", text, r->list->independent, independent);
+    for (size_t k = 0; k < r->list->count; k++) {
+        double drift = r->list->found[k].drift.drift[NH_DRIFT_RUNS - 1];
+        char *phi = nh_print_string(r->question->model->dag, r->list->found[k].phi);
+        cr_expect(r->list->found[k].proof.proved, "%s: %s", text, phi);
         cr_expect_lt(drift, 1e-6, "%s: %s drifts by %g", text, phi, drift);
         nh_free(phi);
     }
@@ -453,7 +453,7 @@ Test(quadratures, combined_coordinates, PLAIN_ONLY)
 Test(quadratures, an_energy_that_jumps_stays_one)
 {
     nh_analysis *r = ask("name: angle\nparameters: {a: 2}\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 + a*atan(y/x)\n");
-    cr_expect_eq(r->independent, 1);
+    cr_expect_eq(r->list->independent, 1);
     cr_expect_geq(r->completeness[NH_COMPLETE_IN_COORDINATES].degree, 4);
     nh_analysis_free(r);
 }
@@ -464,7 +464,7 @@ Test(quadratures, real_where_the_motion_is_bound)
     nh_analysis *r = ask("name: fall\nparameters: {k: 1.1}\ncoordinates: [x]\ndomain: {x: [0.5, 1], x': [-3, 3]}\nlagrangian: x'^2/2 + k/x\n");
     nh_ex positive[NH_MOST_REAL_WHERE];
     size_t bound = 0;
-    for (size_t k = 0; k < r->count; k++) bound += nh_real_where(r->model, r->found[k].phi, positive) > 0;
+    for (size_t k = 0; k < r->list->count; k++) bound += nh_real_where(r->question->model, r->list->found[k].phi, positive) > 0;
     cr_expect_eq(bound, 1);
     cr_assert_not_null(r->motion);
     cr_expect(r->motion->region && strstr(r->motion->region, "where ") && strstr(r->motion->region, " > 0"), "%s", r->motion->region);
@@ -534,17 +534,17 @@ Test(quadratures, times_that_are_elliptic_integrals)
         nh_ex e, claim;
         snprintf(text, sizeof text, "name: time\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}, {name: k, value: 0.7}]\ncoordinates: [{name: x, type: %s}]\nlagrangian: %s\n%s", strstr(x->lagrangian, "(x)") ? "angle" : "length", x->lagrangian, x->domain);
         nh_analysis *r = ask(text);
-        nh_dag *d = r->model->dag;
-        cr_assert_eq(r->pieces, 1, "%s: %zu", x->lagrangian, r->pieces);
-        const nh_current *f = &r->piece[0];
+        nh_dag *d = r->question->model->dag;
+        cr_assert_eq(r->list->pieces, 1, "%s: %zu", x->lagrangian, r->list->pieces);
+        const nh_current *f = &r->list->piece[0];
         cr_expect(f->proof.proved && f->proof.all_parameters == x->all_parameters, "%s", x->lagrangian);
         char jump[80];
         snprintf(jump, sizeof jump, "on each side of %s = 0, where it jumps", x->jump);
         size_t length = strcmp(x->jump, "x'") ? strlen("on each side of x' = 0, where it jumps, ") + strlen(jump) : strlen(jump);
         cr_expect(strstr(f->region, "on each side of x' = 0, where it jumps") && strstr(f->region, jump) && strlen(f->region) == length, "%s: %s", x->lagrangian, f->region);
-        cr_assert(nh_system_expression_text(r->system, "test", x->time, 0, NULL, &e, &error) && nh_analysis_file_to_chart(r->model, e, &claim, &error), "%s: %s", x->lagrangian, error.what);
-        nh_ex ratio = nh_simplify(d, nh_div(d, nh_diff(d, f->phi, r->system->t), nh_diff(d, claim, r->system->t)));
-        cr_expect(nh_model_is_constant(r->model, ratio), "%s", x->lagrangian);
+        cr_assert(nh_system_expression_text(r->question->system, "test", x->time, 0, NULL, &e, &error) && nh_analysis_file_to_chart(r->question->model, e, &claim, &error), "%s: %s", x->lagrangian, error.what);
+        nh_ex ratio = nh_simplify(d, nh_div(d, nh_diff(d, f->phi, r->question->system->t), nh_diff(d, claim, r->question->system->t)));
+        cr_expect(nh_model_is_constant(r->question->model, ratio), "%s", x->lagrangian);
         cr_expect_eq(nh_normal_is_zero(d, nh_sub(d, f->phi, nh_mul(d, ratio, claim)), 0), NH_ZERO, "%s", x->lagrangian);
         nh_analysis_free(r);
     }
@@ -554,11 +554,11 @@ Test(quadratures, times_that_are_elliptic_integrals)
 Test(quadratures, parts_that_move_by_themselves)
 {
     nh_analysis *r = ask("name: parts\nparameters: [{name: m, value: 1.3}, {name: g, value: 2}]\ncoordinates: [x, z]\nlagrangian: m*(x'^2 + z'^2)/2 - m*x^4/4 - m*g*z\n");
-    cr_expect_eq(r->independent, 3);
-    cr_assert_eq(r->pieces, 1);
-    const nh_current *f = &r->piece[0];
-    cr_expect(f->proof.proved && nh_depends(r->model->dag, f->phi, r->system->t));
-    cr_expect(!nh_depends(r->model->dag, f->phi, r->system->coordinate[1].q) && !nh_depends(r->model->dag, f->phi, r->model->chart->w[1]));
+    cr_expect_eq(r->list->independent, 3);
+    cr_assert_eq(r->list->pieces, 1);
+    const nh_current *f = &r->list->piece[0];
+    cr_expect(f->proof.proved && nh_depends(r->question->model->dag, f->phi, r->question->system->t));
+    cr_expect(!nh_depends(r->question->model->dag, f->phi, r->question->system->coordinate[1].q) && !nh_depends(r->question->model->dag, f->phi, r->question->model->chart->w[1]));
     cr_expect_str_eq(f->region, "on each side of x' = 0, where it jumps");
     nh_analysis_free(r);
 }
@@ -578,11 +578,11 @@ static double square_of_speed(double energy, double h) { return energy + 4 * pow
 Test(quadratures, a_bead_that_swings_or_turns_over, PLAIN_ONLY)
 {
     nh_analysis *r = ask("name: hoop\ncoordinates: [{name: h, type: angle}]\nlagrangian: (h'^2 + 4*sin(h)^2)/2 + 14*cos(h)\n");
-    const nh_model *o = r->model;
-    cr_assert_eq(r->pieces, 1);
-    const nh_current *f = &r->piece[0];
+    const nh_model *o = r->question->model;
+    cr_assert_eq(r->list->pieces, 1);
+    const nh_current *f = &r->list->piece[0];
     cr_expect(strstr(f->region, "on each side of cos(h/2) = 0, where it jumps") && strstr(f->region, "on each side of h' = 0, where it jumps"), "%s", f->region);
-    nh_ex in[] = {r->system->t, o->system->coordinate[0].q, o->chart->w[0]};
+    nh_ex in[] = {r->question->system->t, o->system->coordinate[0].q, o->chart->w[0]};
     nh_tape *tape = nh_tape_create(o->dag, 3, in, 1, &f->phi, 0, NULL, NULL);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (int turns = 0; turns < 2; turns++) {
@@ -612,9 +612,9 @@ static nh_motion_series *series_of(const nh_analysis *r, double *z, double low, 
     const nh_validation *v = r->validation;
     cr_assert(r->motion && v && v->count);
     z[0] = v->time[0];
-    memcpy(z + 1, v->state, (r->model->m + r->model->n) * sizeof *z);
+    memcpy(z + 1, v->state, (r->question->model->m + r->question->model->n) * sizeof *z);
     double start = z[r->motion->parameter];
-    nh_motion_series *out = nh_motion_series_from(r->arena, r->model, r->motion, z, start + low, start + high);
+    nh_motion_series *out = nh_motion_series_from(r->arena, r->question->model, r->motion, z, start + low, start + high);
     cr_assert_not_null(out);
     cr_assert_eq(out->link[out->first].centre, start);
     for (size_t i = 0; i < out->links; i++) {

@@ -47,7 +47,7 @@ static nh_analysis *analysis_of(const char *path, const nh_options *options, nh_
 static size_t certified(const nh_analysis *r)
 {
     size_t n = 0;
-    for (size_t k = 0; k < r->count; k++) n += r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits;
+    for (size_t k = 0; k < r->list->count; k++) n += r->list->found[k].proof.proved || r->list->found[k].proof.digits >= r->question->options.digits;
     return n;
 }
 
@@ -56,10 +56,10 @@ static answer answer_of(const char *name, const nh_options *options)
     char path[300];
     snprintf(path, sizeof path, "systems/%s.yaml", name);
     answer a = {.r = analysis_of(path, options, NH_CHART_AUTO)};
-    a.current = nh_alloc_array(a.r->count + 1, sizeof *a.current);
-    for (size_t k = 0; k < a.r->count; k++) {
-        cr_assert(a.r->found[k].has_in_velocities);
-        if (a.r->found[k].independence == NH_INDEPENDENT) a.current[a.count++] = a.r->found[k].in_velocities;
+    a.current = nh_alloc_array(a.r->list->count + 1, sizeof *a.current);
+    for (size_t k = 0; k < a.r->list->count; k++) {
+        cr_assert(a.r->list->found[k].has_in_velocities);
+        if (a.r->list->found[k].independence == NH_INDEPENDENT) a.current[a.count++] = a.r->list->found[k].in_velocities;
     }
     a.certified = certified(a.r);
     return a;
@@ -79,17 +79,17 @@ static void expect_same(const answer *a, const char *name, const char *what, con
     cr_assert_not_null(out);
     how.known = a->count;
     how.current = a->current;
-    rewrite_system(a->r->system, &how, out);
+    rewrite_system(a->r->question->system, &how, out);
     fclose(out);
     nh_analysis *r = analysis_of(path, options, chart);
     row o = {.rate = -INFINITY};
     compare(r, &o);
     cr_expect_eq(r->verdict, a->r->verdict, "%s, %s: verdict %d, was %d", name, what, (int)r->verdict, (int)a->r->verdict);
-    cr_expect_eq(o.found, a->r->independent, "%s, %s: %zu independent currents, were %zu", name, what, o.found, a->r->independent);
-    cr_expect_eq(o.maximum, a->r->local_maximum, "%s, %s: at most %zu, was %zu", name, what, o.maximum, a->r->local_maximum);
+    cr_expect_eq(o.found, a->r->list->independent, "%s, %s: %zu independent currents, were %zu", name, what, o.found, a->r->list->independent);
+    cr_expect_eq(o.maximum, a->r->question->local_maximum, "%s, %s: at most %zu, was %zu", name, what, o.maximum, a->r->question->local_maximum);
     cr_expect_eq(o.missing, 0, "%s, %s: %s", name, what, o.names);
     cr_expect_eq(o.wrong, 0, "%s, %s: %s", name, what, o.names);
-    cr_expect_eq(r->count - certified(r), a->r->count - a->certified, "%s, %s: %zu of %zu certified, were %zu of %zu", name, what, certified(r), r->count, a->certified, a->r->count);
+    cr_expect_eq(r->list->count - certified(r), a->r->list->count - a->certified, "%s, %s: %zu of %zu certified, were %zu of %zu", name, what, certified(r), r->list->count, a->certified, a->r->list->count);
     nh_analysis_free(r);
     remove(path);
 }
@@ -123,7 +123,7 @@ Test(same, whatever_the_seed) { for_all(other_seeds, 19); }
 static void other_names(const answer *a, const char *name, const nh_options *options)
 {
     enum { most = 20 };
-    size_t back[most], turned[most], m = a->r->system->coordinates;
+    size_t back[most], turned[most], m = a->r->question->system->coordinates;
     cr_assert_leq(m, (size_t)most);
     for (size_t i = 0; i < m; i++) back[i] = m - 1 - i, turned[i] = (i + 1) % m;
     expect_same(a, name, "renamed", options, (rewriting){.rename = true}, NH_CHART_AUTO);
@@ -152,7 +152,7 @@ Test(same, whatever_the_units) { for_all(other_units, 21); }
 static void other_charts(const answer *a, const char *name, const nh_options *options)
 {
     enum { most_choices = 3 };
-    const nh_system *y = a->r->system;
+    const nh_system *y = a->r->question->system;
     size_t m = y->coordinates, k = y->constraints, tried = 0;
     if (k == 0) return;
     if (y->quasi) expect_same(a, name, "in coordinate velocities", options, (rewriting){.no_chart = true}, NH_CHART_COORDINATES);

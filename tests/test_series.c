@@ -33,7 +33,7 @@ static double f_of(const nh_analysis *r, const nh_series *s, const char *word, d
 {
     double u = (2 * x - s->low - s->high) / (s->high - s->low), b = 0, c = 0;
     for (size_t i = 0; i < s->words; i++) {
-        char *name = nh_print_string(r->model->dag, s->word[i]);
+        char *name = nh_print_string(r->question->model->dag, s->word[i]);
         bool same = !strcmp(name, word);
         nh_free(name);
         for (size_t k = s->degree + 1; same && k-- > 0;) {
@@ -48,15 +48,15 @@ static double f_of(const nh_analysis *r, const nh_series *s, const char *word, d
 static size_t count_series(const nh_analysis *r)
 {
     size_t n = 0;
-    for (size_t k = 0; k < r->count; k++) n += r->found[k].series != NULL;
+    for (size_t k = 0; k < r->list->count; k++) n += r->list->found[k].series != NULL;
     return n;
 }
 
 /* Every series is certified, new, and constant along the motion; how many there are. */
 static size_t check_series(const nh_analysis *r, const char *name)
 {
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_current *f = &r->found[k];
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_current *f = &r->list->found[k];
         if (!f->series) continue;
         cr_expect(f->proof.digits >= 50 && f->printed_digits >= 9 && f->heldout < 1e-8,
                   "%s: %g refined, %g printed, %.1e", name, f->proof.digits, f->printed_digits, f->heldout);
@@ -96,12 +96,12 @@ static nh_analysis *roll(const char *const shape[3], double low, double high)
 static void two_on(const char *name, const char *const shape[3], double low, double high)
 {
     nh_analysis *r = roll(shape, low, high);
-    cr_expect(r->verdict == NH_FOUND && r->independent == 3, "%s on [%g, %g]: %zu independent", name, low, high,
-              r->independent);
+    cr_expect(r->verdict == NH_FOUND && r->list->independent == 3, "%s on [%g, %g]: %zu independent", name, low, high,
+              r->list->independent);
     cr_expect_eq(check_series(r, name), 2, "%s on [%g, %g]", name, low, high);
     cr_expect_eq(r->almosts, 0, "%s on [%g, %g]: %zu almost conserved", name, low, high, r->almosts);
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_series *s = r->found[k].series;
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_series *s = r->list->found[k].series;
         cr_expect(!s || (s->low <= low && s->high >= high), "%s: [%g, %g] of [%g, %g]", name, s->low, s->high, low,
                   high);
     }
@@ -143,9 +143,9 @@ Test(series, ellipsoid_on_a_wide_interval, .timeout = 120, WHOLE_ONLY)
 Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120, WHOLE_ONLY)
 {
     nh_analysis *r = roll(disk, 0.0005, 3.141);
-    cr_expect(r->independent == 3 && check_series(r, "disk") == 2, "%zu independent", r->independent);
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_series *s = r->found[k].series;
+    cr_expect(r->list->independent == 3 && check_series(r, "disk") == 2, "%zu independent", r->list->independent);
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_series *s = r->list->found[k].series;
         cr_expect(!s || (s->low > 0 && s->low < 0.3 && s->high > 2.8 && s->high < M_PI), "[%g, %g]", s->low, s->high);
     }
     nh_analysis_free(r);
@@ -160,8 +160,8 @@ Test(series, the_interval_does_not_matter, .timeout = 120, WHOLE_ONLY)
     for (int i = 0; i < 2; i++) {
         nh_analysis *r = roll(disk, ends[i][0], ends[i][1]);
         const nh_series *s[2] = {0};
-        for (size_t k = 0, n = 0; k < r->count && n < 2; k++)
-            if (r->found[k].series) s[n++] = r->found[k].series;
+        for (size_t k = 0, n = 0; k < r->list->count && n < 2; k++)
+            if (r->list->found[k].series) s[n++] = r->list->found[k].series;
         cr_assert(s[0] && s[1]);
         for (int j = 0; j < 3; j++)
             determinant[i][j] = f_of(r, s[0], "p'", at[j]) * f_of(r, s[1], "s'", at[j]) -
@@ -198,16 +198,16 @@ Test(series, airy_functions, .timeout = 120)
     static const char *const meaning[2] = {"x at t = 0", "x' at t = 0"};
     nh_analysis *r = ask(airy);
     size_t seen = 0;
-    cr_expect(r->independent == 2 && r->search == NH_SEARCH_COMPLETE && check_series(r, "airy") == 2);
-    for (size_t k = 0; k < r->count; k++)
-        for (int i = 0; i < 2 && r->found[k].series; i++) {
-            if (strcmp(r->found[k].meaning, meaning[i])) continue;
+    cr_expect(r->list->independent == 2 && r->search == NH_SEARCH_COMPLETE && check_series(r, "airy") == 2);
+    for (size_t k = 0; k < r->list->count; k++)
+        for (int i = 0; i < 2 && r->list->found[k].series; i++) {
+            if (strcmp(r->list->found[k].meaning, meaning[i])) continue;
             seen++;
             for (double t = 0.25; t < 4; t += 0.5) {
                 double y[2], slope[2];
                 airy_functions(t, y, slope);
                 double x = i ? -slope[0] : slope[1], v = i ? y[0] : -y[1];
-                double a = f_of(r, r->found[k].series, "x", t), b = f_of(r, r->found[k].series, "x'", t);
+                double a = f_of(r, r->list->found[k].series, "x", t), b = f_of(r, r->list->found[k].series, "x'", t);
                 cr_expect(fabs(a - x) + fabs(b - v) < 1e-11 * (1 + fabs(x) + fabs(v)),
                           "t = %g: %.15g, %.15g instead of %.15g, %.15g", t, a, b, x, v);
             }
@@ -267,12 +267,12 @@ static void all_of(size_t i)
     char text[2000];
     snprintf(text, sizeof text, "name: driven\n%s", driven[i].text);
     nh_analysis *r = ask(text);
-    cr_expect(r->verdict == NH_FOUND && r->independent == driven[i].all, "%s: %zu of %zu", driven[i].name,
-              r->independent, driven[i].all);
+    cr_expect(r->verdict == NH_FOUND && r->list->independent == driven[i].all, "%s: %zu of %zu", driven[i].name,
+              r->list->independent, driven[i].all);
     cr_expect_gt(check_series(r, driven[i].name), 0u, "%s: no series", driven[i].name);
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_series *s = r->found[k].series;
-        cr_expect(!s || s->variable == r->system->t, "%s", driven[i].name);
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_series *s = r->list->found[k].series;
+        cr_expect(!s || s->variable == r->question->system->t, "%s", driven[i].name);
     }
     nh_analysis_free(r);
 }
@@ -307,10 +307,10 @@ Test(series, of_one_coordinate_of_two, .timeout = 200, PLAIN_ONLY)
                          "lagrangian: (x'^2 + y'^2 + z'^2 + h'^2 + u'^2)/2 - u^4/4\n"
                          "constraints:\n  - z' - sin(h^2)*x' - h*y' = 0\ndomain: {h: [0.6, 1.9]}\n");
     size_t alone = 0, h = 3;
-    cr_expect(r->independent == 6, "%zu independent", r->independent);
-    for (size_t k = 0; k < r->count; k++) {
-        const nh_series *s = r->found[k].series;
-        alone += s && s->variable == r->system->coordinate[h].q;
+    cr_expect(r->list->independent == 6, "%zu independent", r->list->independent);
+    for (size_t k = 0; k < r->list->count; k++) {
+        const nh_series *s = r->list->found[k].series;
+        alone += s && s->variable == r->question->system->coordinate[h].q;
     }
     cr_expect_eq(alone, 1u);
     nh_analysis_free(r);
@@ -322,7 +322,7 @@ Test(series, of_two_coordinates_together_none, .timeout = 60)
 {
     nh_analysis *r = ask("name: plane\ncoordinates: [x, y]\nlagrangian: exp(x^2 - y^2)*(x'^2 + y'^2)/2\n");
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
-    cr_expect(r->independent == 1 && r->found[0].energy && r->found[0].proof.proved);
+    cr_expect(r->list->independent == 1 && r->list->found[0].energy && r->list->found[0].proof.proved);
     cr_expect(c->counted && c->missing_at == 1 && c->missing == 2, "%zu missing at %zu", c->missing, c->missing_at);
     nh_analysis_free(r);
 }
@@ -332,8 +332,8 @@ Test(series, none_where_there_is_a_closed_form, .timeout = 60)
 {
     nh_analysis *r =
         ask("name: growing\ncoordinates: [x, y]\nlagrangian: exp(t/5)*exp(x^2 - y^2)*(x'^2 + y'^2)/2\n");
-    cr_assert_eq(r->independent, 1u);
-    cr_expect(!r->found[0].series && r->found[0].proof.proved);
+    cr_assert_eq(r->list->independent, 1u);
+    cr_expect(!r->list->found[0].series && r->list->found[0].proof.proved);
     nh_analysis_free(r);
 }
 

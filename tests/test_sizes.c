@@ -26,7 +26,7 @@ static nh_analysis *search(nh_text *text, double work)
     nh_analysis *r = nh_analysis_create(&q, &error);
     unlink(path);
     cr_assert_not_null(r, "%s %s", error.where, error.what);
-    for (size_t k = 0; k < r->count; k++) cr_expect(r->found[k].proof.proved || r->found[k].proof.digits >= r->options.digits, "%zu coordinates, %s", r->model->m, r->found[k].name);
+    for (size_t k = 0; k < r->list->count; k++) cr_expect(r->list->found[k].proof.proved || r->list->found[k].proof.digits >= r->question->options.digits, "%zu coordinates, %s", r->question->model->m, r->list->found[k].name);
     return r;
 }
 
@@ -42,7 +42,7 @@ static void coordinates(nh_text *text, size_t n, const char *names)
 static bool meant(const nh_analysis *r, const char *words)
 {
     bool any = false;
-    for (size_t k = 0; k < r->count; k++) any |= strstr(r->found[k].meaning, words) != NULL;
+    for (size_t k = 0; k < r->list->count; k++) any |= strstr(r->list->found[k].meaning, words) != NULL;
     return any;
 }
 
@@ -57,7 +57,7 @@ Test(sizes, oscillators, .timeout = 600, PLAIN_ONLY)
         for (size_t i = 1; i <= sizes[s]; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
         nh_text_add(&text, "\n");
         nh_analysis *r = search(&text, 0);
-        cr_expect_eq(r->independent, 2 * sizes[s], "%zu of %zu", r->independent, 2 * sizes[s]);
+        cr_expect_eq(r->list->independent, 2 * sizes[s], "%zu of %zu", r->list->independent, 2 * sizes[s]);
         cr_expect_eq(r->verdict, NH_FOUND);
         cr_expect_eq(r->search, NH_SEARCH_COMPLETE);
         nh_analysis_free(r);
@@ -76,7 +76,7 @@ Test(sizes, many_oscillators, .timeout = 600, PLAIN_ONLY)
     for (size_t i = 1; i <= n; i++) nh_text_addf(&text, "%sm*x%zu'^2/2 - %.3f*x%zu^2/2", i > 1 ? " + " : "", i, (double)i + sqrt((double)i), i);
     nh_text_add(&text, "\n");
     nh_analysis *r = search(&text, 125 * (double)n);
-    cr_expect_eq(r->independent, 2 * n, "%zu of %zu", r->independent, 2 * n);
+    cr_expect_eq(r->list->independent, 2 * n, "%zu of %zu", r->list->independent, 2 * n);
     cr_expect_eq(r->search, NH_SEARCH_COMPLETE);
     cr_expect(meant(r, "energy"));
     nh_analysis_free(r);
@@ -99,7 +99,7 @@ Test(sizes, chains, .timeout = 600, WHOLE_ONLY)
         nh_text text;
         chain(&text, sizes[s], false);
         nh_analysis *r = search(&text, 0);
-        cr_expect_eq(r->independent, 2 * sizes[s], "%zu of %zu", r->independent, 2 * sizes[s]);
+        cr_expect_eq(r->list->independent, 2 * sizes[s], "%zu of %zu", r->list->independent, 2 * sizes[s]);
         nh_analysis_free(r);
     }
 }
@@ -114,8 +114,8 @@ Test(sizes, ring_of_many, .timeout = 600, WHOLE_ONLY)
     cr_expect(meant(r, "energy"));
     for (size_t i = 0; i < 2; i++) {
         bool any = false;
-        for (size_t k = 0; k < r->count; k++) {
-            char *phi = nh_print_string(r->model->dag, r->found[k].phi);
+        for (size_t k = 0; k < r->list->count; k++) {
+            char *phi = nh_print_string(r->question->model->dag, r->list->found[k].phi);
             any |= strstr(phi, wanted[i]) != NULL;
             nh_free(phi);
         }
@@ -137,7 +137,7 @@ Test(sizes, ring_of_pendula, .timeout = 600, PLAIN_ONLY)
     for (size_t i = 0; i < n; i++) nh_text_addf(&text, " + a%zu'^2/2 + g*cos(a%zu) + k*cos(a%zu - a%zu)", i, i, i, (i + 1) % n);
     nh_text_add(&text, "\n");
     nh_analysis *r = search(&text, 4000);
-    cr_expect_eq(r->independent, 1, "%zu", r->independent);
+    cr_expect_eq(r->list->independent, 1, "%zu", r->list->independent);
     cr_expect(meant(r, "energy"));
     cr_expect_eq(r->search, NH_SEARCH_EXHAUSTED, "%s", r->warnings ? r->warning[0] : "");
     nh_analysis_free(r);
@@ -161,7 +161,7 @@ Test(sizes, bodies_in_space, .timeout = 600, WHOLE_ONLY)
             for (size_t c = 0; c < 3; c++) nh_text_addf(&text, "  %c%zu: [%.2f, %.2f]\n", "xyz"[c], i, at[c], at[c] + 0.5);
         }
         nh_analysis *r = search(&text, 0);
-        cr_expect_eq(r->independent, 10, "%zu bodies: %zu", n, r->independent);
+        cr_expect_eq(r->list->independent, 10, "%zu bodies: %zu", n, r->list->independent);
         cr_expect_eq(r->verdict, NH_FOUND);
         nh_analysis_free(r);
     }

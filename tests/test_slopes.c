@@ -20,13 +20,13 @@ Test(slopes, a_projectile_with_drag_has_its_hodograph)
                  "forces: [\"x = -k*x'*sqrt(x'^2 + y'^2)\", \"y = -k*y'*sqrt(x'^2 + y'^2)\"]\n%s",
                  places[i]);
         nh_analysis *r = analysed_text(text);
-        cr_assert_eq(r->count + r->pieces, 1, "%zu", i);
-        const nh_current *f = r->count ? r->found : r->piece;
+        cr_assert_eq(r->list->count + r->list->pieces, 1, "%zu", i);
+        const nh_current *f = r->list->count ? r->list->found : r->list->piece;
         cr_expect(f->proof.proved && f->proof.all_parameters, "%s", f->name);
-        cr_assert(nh_system_expression_text(r->system, "test", "m*g/x'^2 + k*(y'*sqrt(x'^2 + y'^2)/x'^2 + sign(x')*log((sqrt(x'^2 + y'^2) + y'*sign(x'))/abs(x')))", 0, NULL, &e, &error) &&
-                      nh_analysis_file_to_chart(r->model, e, &phi, &error),
+        cr_assert(nh_system_expression_text(r->question->system, "test", "m*g/x'^2 + k*(y'*sqrt(x'^2 + y'^2)/x'^2 + sign(x')*log((sqrt(x'^2 + y'^2) + y'*sign(x'))/abs(x')))", 0, NULL, &e, &error) &&
+                      nh_analysis_file_to_chart(r->question->model, e, &phi, &error),
                   "%s", error.what);
-        cr_expect_geq(nh_prove_digits(r->model, phi, &r->options), r->options.digits);
+        cr_expect_geq(nh_prove_digits(r->question->model, phi, &r->question->options), r->question->options.digits);
         nh_analysis_free(r);
     }
 }

@@ -34,9 +34,9 @@ static void expect(const char *text, size_t currents, const char *word)
     nh_analysis *r = analysis_of(text);
     size_t proved = 0;
     bool there = !word;
-    for (size_t k = 0; k < r->count; k++) {
-        char *shown = nh_print_string(r->model->dag, r->found[k].phi);
-        proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.all_parameters;
+    for (size_t k = 0; k < r->list->count; k++) {
+        char *shown = nh_print_string(r->question->model->dag, r->list->found[k].phi);
+        proved += r->list->found[k].independence == NH_INDEPENDENT && r->list->found[k].proof.all_parameters;
         there |= word && strstr(shown, word);
         nh_free(shown);
     }
@@ -70,7 +70,7 @@ Test(velocity_turn, numbers_as_parameters, WHOLE_ONLY)
         "constraints: [y'*cos(h) = x'*sin(h), y'*cos(h + q) - x'*sin(h + q) = h' + q' + h'*cos(q)]\n";
     nh_analysis *r = analysis_of(text);
     size_t proved = 0;
-    for (size_t k = 0; k < r->count; k++) proved += r->found[k].independence == NH_INDEPENDENT && r->found[k].proof.proved;
+    for (size_t k = 0; k < r->list->count; k++) proved += r->list->found[k].independence == NH_INDEPENDENT && r->list->found[k].proof.proved;
     cr_expect_geq(proved, 2);
     nh_analysis_free(r);
 }

@@ -12,6 +12,7 @@
 #include "search/agreement.h"
 #include "search/branch.h"
 #include "search/coefficients.h"
+#include "search/current_list.h"
 #include "search/currents.h"
 #include "search/defaults.h"
 #include "commands/analyze_known.h"
@@ -37,48 +38,48 @@ static double lap(double *last)
 
 /* ---- reading ---- */
 
-static void merge_options(nh_analysis *result, const nh_request *q)
+static void merge_options(nh_analysis_question *question, const nh_request *q)
 {
-    const nh_analysis_file *a = result->analysis;
-    result->options = q->options;
-    if (result->pace > 0 && !q->until_given) result->options.until /= result->pace;
+    const nh_analysis_file *a = question->analysis;
+    question->options = q->options;
+    if (question->pace > 0 && !q->until_given) question->options.until /= question->pace;
     if (!a) return;
-    if (a->has_seed && !q->seed_given) result->options.seed = a->seed;
-    if (a->has_samples && !q->samples_given) result->options.samples = a->samples;
-    if (a->has_tolerance && !q->tolerance_given) result->options.tolerance = a->tolerance;
-    if (a->has_until && !q->until_given) result->options.until = a->until;
+    if (a->has_seed && !q->seed_given) question->options.seed = a->seed;
+    if (a->has_samples && !q->samples_given) question->options.samples = a->samples;
+    if (a->has_tolerance && !q->tolerance_given) question->options.tolerance = a->tolerance;
+    if (a->has_until && !q->until_given) question->options.until = a->until;
 }
 
-static bool read_files(nh_analysis *result, const nh_request *q, nh_error *error)
+static bool read_files(nh_analysis *result, nh_analysis_question *question, const nh_request *q, nh_error *error)
 {
-    if (q->analysis_path && !(result->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
-    size_t own = result->analysis ? result->analysis->settings : 0;
+    if (q->analysis_path && !(question->analysis = nh_analysis_file_read(q->analysis_path, error))) return false;
+    size_t own = question->analysis ? question->analysis->settings : 0;
     nh_setting *setting = nh_arena_alloc(result->arena, (own + q->settings + 1) * sizeof *setting);
-    if (own) memcpy(setting, result->analysis->setting, own * sizeof *setting);
+    if (own) memcpy(setting, question->analysis->setting, own * sizeof *setting);
     if (q->settings) memcpy(setting + own, q->setting, q->settings * sizeof *setting);
-    result->system = nh_system_read(q->system_path, own + q->settings, setting, error);
-    for (size_t i = 0; result->system && i < result->system->notes; i++)
-        nh_analysis_warn(result, "%s", result->system->note[i]);
-    return result->system != NULL;
+    question->system = nh_system_read(q->system_path, own + q->settings, setting, error);
+    for (size_t i = 0; question->system && i < question->system->notes; i++)
+        nh_analysis_warn(result, "%s", question->system->note[i]);
+    return question->system != NULL;
 }
 
 /* ---- the linear problem ---- */
 
 static nh_points *fit_points(nh_analysis *result, size_t columns, nh_error *error)
 {
-    size_t count = (size_t)result->options.samples;
+    size_t count = (size_t)result->question->options.samples;
     if (count == 0) count = samples_per_column * columns;
     if (count < least_samples) count = least_samples;
     if (count < columns + 16) count = columns + 16;
-    return nh_points_cover(result->model, count, (uint64_t)result->options.seed, error);
+    return nh_points_cover(result->question->model, count, (uint64_t)result->question->options.seed, error);
 }
 
 static nh_nullspace *current_route(nh_analysis *result, const nh_ansatz *a, const nh_points *points, nh_error *error)
 {
-    nh_equations *equations = nh_equations_create(a->columns, nh_threads(result->options.threads));
-    nh_rows *rows = nh_rows_create(result->model, a, 0, NULL);
+    nh_equations *equations = nh_equations_create(a->columns, nh_threads(result->question->options.threads));
+    nh_rows *rows = nh_rows_create(result->question->model, a, 0, NULL);
     nh_rows_current(rows, points, NULL, equations);
-    nh_nullspace_options limits = nh_nullspace_options_from(&result->options);
+    nh_nullspace_options limits = nh_nullspace_options_from(&result->question->options);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, error);
     nh_rows_free(rows);
     nh_equations_free(equations);
@@ -91,7 +92,8 @@ static void collect(nh_analysis *result, nh_current_checker *bench, const nh_ans
                     const nh_nullspace *s)
 {
     bool sure = s->likely == s->dimension;
-    nh_candidates *list = nh_echelon(result->model, points, a, s, sure ? s->dimension : s->likely, &result->options);
+    nh_candidates *list =
+        nh_echelon(result->question->model, points, a, s, sure ? s->dimension : s->likely, &result->question->options);
     for (size_t k = 0; k < list->count; k++) nh_currents_add(bench, &list->candidate[k], points, sure);
     nh_currents_join(bench, points);
     nh_candidates_free(list);
@@ -100,9 +102,11 @@ static void collect(nh_analysis *result, nh_current_checker *bench, const nh_ans
 static bool linear_problem(nh_analysis *result, size_t families, const nh_family *family, double *clock,
                            nh_error *error)
 {
-    nh_points *ranges = nh_points_create(result->model, least_samples, 1, (uint64_t)result->options.seed, error);
+    nh_points *ranges =
+        nh_points_create(result->question->model, least_samples, 1, (uint64_t)result->question->options.seed, error);
     if (!ranges) return false;
-    nh_ansatz *a = nh_ansatz_create(result->model, ranges, families, family, (size_t)result->options.columns, error);
+    nh_ansatz *a = nh_ansatz_create(result->question->model, ranges, families, family,
+                                    (size_t)result->question->options.columns, error);
     nh_points_free(ranges);
     if (!a) return false;
     nh_points *points = fit_points(result, a->columns, error);
@@ -113,7 +117,7 @@ static bool linear_problem(nh_analysis *result, size_t families, const nh_family
         result->samples = points->count;
         result->beyond = nh_points_equations(points) - points->count;
         result->rejected = points->tried - nh_points_equations(points);
-        if (result->route != NH_ROUTE_CURRENT) nh_routes_compare(result, a, points, s);
+        if (result->question->route != NH_ROUTE_CURRENT) nh_routes_compare(result, a, points, s);
         result->timing.nullspace = lap(clock);
         nh_current_checker *bench = nh_current_checker_create(result, error);
         good = bench != NULL;
@@ -137,7 +141,7 @@ static void watch_deadline(nh_analysis *result)
     if (late && !nh_interrupted()) {
         result->partial = true;
         nh_analysis_warn(result, "the time limit of %g s ended the search; raise it by --max-seconds",
-                         result->options.max_seconds);
+                         result->question->options.max_seconds);
     }
     nh_deadline_set(INFINITY);
 }
@@ -148,7 +152,8 @@ static bool go_on(nh_analysis *result, nh_error *error)
 {
     nh_spectrum given = result->current;
     size_t samples = result->samples, beyond = result->beyond, rejected = result->rejected;
-    bool searched = result->count && !result->analysis->alone && result->search == NH_SEARCH_EXHAUSTED && !nh_late();
+    bool searched = result->list->count && !result->question->analysis->alone &&
+                    result->search == NH_SEARCH_EXHAUSTED && !nh_late();
     if (searched && !nh_staged_search_run(result, error)) return false;
     watch_deadline(result);
     if (!nh_late()) nh_missing_count(result, result->stages > 0);
@@ -163,17 +168,18 @@ static void conclude(nh_analysis *result)
     bool kept_out =
              result->search == NH_SEARCH_CUT || (result->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(result)),
          open = result->open > 0 || kept_out || nh_analysis_by_trial(result),
-         failed = result->count == 0 && result->current.dimension > 0;
-    result->verdict = result->count || nh_analysis_to_the_end(result) ? NH_FOUND
-                      : open || failed || result->pieces              ? NH_UNDECIDED
-                                                                      : NH_NONE;
-    if (result->count == 0 && kept_out)
+         failed = result->list->count == 0 && result->current.dimension > 0;
+    result->verdict = result->list->count || nh_analysis_to_the_end(result) ? NH_FOUND
+                      : open || failed || result->list->pieces              ? NH_UNDECIDED
+                                                                            : NH_NONE;
+    if (result->list->count == 0 && kept_out)
         nh_analysis_warn(result, "stages beyond a limit may contain further currents%s",
                          nh_analysis_left_out(result) ? ": the list of stages names the options to raise" : "");
-    if (result->count == 0 && result->open)
+    if (result->list->count == 0 && result->open)
         nh_analysis_warn(
             result, "some null vectors have no certificate: to decide, use another ansatz or more samples (--samples)");
-    if (result->current.rank_in_doubt && (!result->stages || (result->analysis && result->analysis->families)))
+    if (result->current.rank_in_doubt &&
+        (!result->stages || (result->question->analysis && result->question->analysis->families)))
         nh_analysis_warn(result,
                          "two columns of the ansatz are nearly dependent: the option `rank` decides which are kept");
 }
@@ -182,14 +188,15 @@ static void conclude(nh_analysis *result)
 
 static const nh_observable *list_tracks(nh_analysis *result)
 {
+    const nh_current_list *list = result->list;
     nh_observables *t = &result->tracks;
-    *t = nh_observables_create(result->arena, result->model);
+    *t = nh_observables_create(result->arena, result->question->model);
     nh_observables_add_states(t);
-    nh_observables_add(t, "E", NH_TRACK_ENERGY, result->model->E);
-    for (size_t k = 0; k < result->count; k++)
-        nh_observables_add(t, result->found[k].name, NH_TRACK_CURRENT, result->found[k].phi);
-    nh_observables_add_drawing(t, result->analysis);
-    nh_observables_add_watches(t, result->analysis);
+    nh_observables_add(t, "E", NH_TRACK_ENERGY, result->question->model->E);
+    for (size_t k = 0; k < list->count; k++)
+        nh_observables_add(t, list->found[k].name, NH_TRACK_CURRENT, list->found[k].phi);
+    nh_observables_add_drawing(t, result->question->analysis);
+    nh_observables_add_watches(t, result->question->analysis);
     nh_observable *watch = nh_arena_alloc(result->arena, (t->count + 1) * sizeof *watch);
     for (size_t i = 0; i < t->count; i++)
         watch[i] = (nh_observable){t->track[i].name, t->track[i].value, t->track[i].kind == NH_TRACK_WATCH,
@@ -211,28 +218,29 @@ static void say_drift(nh_analysis *result, const nh_current *f)
                          "%s drifts by %.1e along the test motion, more than %g tolerances, and hardly less at smaller "
                          "ones: it is proved to be constant, so this is the error of the motion, which the formula "
                          "magnifies",
-                         f->name, drift, result->options.drift);
+                         f->name, drift, result->question->options.drift);
     else
         nh_analysis_warn(result,
                          "%s drifts by %.1e along the test motion, more than %g tolerances; the drift hardly falls "
                          "with the tolerance, so it is not the error of the motion",
-                         f->name, drift, result->options.drift);
+                         f->name, drift, result->question->options.drift);
 }
 
 /* The end of the test motion: at the latest the place where it has an impulse, which a warning names. */
 static double end_of_motion(nh_analysis *result, const nh_state *initial)
 {
+    const nh_options *options = &result->question->options;
     static const double before = 1e-9; /* part of the time to the impulse */
-    double end = result->options.until, times[2] = {initial->t, end};
-    nh_terrain terrain = nh_terrain_of(result->model, &result->options, result->arena);
+    double end = options->until, times[2] = {initial->t, end};
+    nh_terrain terrain = nh_terrain_of(result->question->model, options, result->arena);
     nh_error ignored;
     nh_error_clear(&ignored);
     if (!terrain.impulses || !(end > initial->t)) return end;
-    nh_trajectory_request request = {.model = result->model,
+    nh_trajectory_request request = {.model = result->question->model,
                                      .initial = initial,
                                      .count = 2,
                                      .times = times,
-                                     .options = &result->options,
+                                     .options = options,
                                      .impulses = terrain.impulses,
                                      .impulse = terrain.impulse};
     nh_trajectory *motion = nh_trajectory_create(&request, &ignored);
@@ -247,27 +255,28 @@ static double end_of_motion(nh_analysis *result, const nh_state *initial)
 
 static void validate(nh_analysis *result, const nh_request *q)
 {
+    const nh_current_list *list = result->list;
     nh_error trouble;
     nh_error_clear(&trouble);
-    nh_state initial = result->analysis ? result->analysis->initial : (nh_state){0};
-    if (!result->analysis || !result->analysis->has_initial)
+    nh_state initial = result->question->analysis ? result->question->analysis->initial : (nh_state){0};
+    if (!result->question->analysis || !result->question->analysis->has_initial)
         if (!nh_defaults_initial(result, &initial, &trouble)) {
             nh_analysis_warn(result, "no motion was computed: %s", trouble.what);
             return;
         }
-    nh_ex *phi = nh_arena_alloc(result->arena, (result->count + 1) * sizeof *phi);
-    nh_valid *valid = nh_arena_alloc(result->arena, (result->count + 1) * sizeof *valid);
-    for (size_t k = 0; k < result->count; k++) {
-        const nh_series *series = result->found[k].series;
-        phi[k] = result->found[k].phi;
+    nh_ex *phi = nh_arena_alloc(result->arena, (list->count + 1) * sizeof *phi);
+    nh_valid *valid = nh_arena_alloc(result->arena, (list->count + 1) * sizeof *valid);
+    for (size_t k = 0; k < list->count; k++) {
+        const nh_series *series = list->found[k].series;
+        phi[k] = list->found[k].phi;
         if (series) valid[k] = (nh_valid){series->variable, series->low, series->high};
     }
     const nh_observable *watch = list_tracks(result);
-    nh_choice choice = {.system = result->system, .model = result->model};
+    nh_choice choice = {.system = result->question->system, .model = result->question->model};
     nh_choice_open(&choice, true);
-    nh_validation_request request = {.model = result->model,
-                                     .other = result->other,
-                                     .currents = result->count,
+    nh_validation_request request = {.model = result->question->model,
+                                     .other = result->question->other,
+                                     .currents = list->count,
                                      .current = phi,
                                      .valid = valid,
                                      .watches = result->tracks.count,
@@ -275,7 +284,7 @@ static void validate(nh_analysis *result, const nh_request *q)
                                      .initial = &initial,
                                      .until = end_of_motion(result, &initial),
                                      .outputs = motion_outputs,
-                                     .options = &result->options,
+                                     .options = &result->question->options,
                                      .accuracy = q->accuracy,
                                      .ways = &choice.ways};
     result->validation = nh_validate(&request, &trouble);
@@ -284,15 +293,15 @@ static void validate(nh_analysis *result, const nh_request *q)
         nh_analysis_warn(result, "no motion was computed: %s", trouble.what);
         return;
     }
-    for (size_t k = 0; k < result->count; k++) {
-        result->found[k].drift = result->validation->current[k];
-        if (result->found[k].drift.in_doubles > 0)
+    for (size_t k = 0; k < list->count; k++) {
+        nh_current_list_describe(result, &list->found[k])->drift = result->validation->current[k];
+        if (list->found[k].drift.in_doubles > 0)
             nh_analysis_warn(result,
                              "the formula of %s loses digits along the test motion: its values in double precision "
                              "change by %.1e; with 77 digits, along the same motion, they change by %.1e",
-                             result->found[k].name, result->found[k].drift.in_doubles,
-                             result->found[k].drift.drift[NH_DRIFT_RUNS - 1]);
-        if (!result->found[k].drift.explained) say_drift(result, &result->found[k]);
+                             list->found[k].name, list->found[k].drift.in_doubles,
+                             list->found[k].drift.drift[NH_DRIFT_RUNS - 1]);
+        if (!list->found[k].drift.explained) say_drift(result, &list->found[k]);
     }
     nh_motion_series_add(result);
     if (result->validation->note[0]) nh_analysis_warn(result, "%s", result->validation->note);
@@ -316,20 +325,23 @@ static size_t counted_currents(const nh_analysis *result)
 static void write_out(nh_analysis *result)
 {
     nh_progress("the geometry", -1);
-    nh_named_current *list = nh_arena_alloc(result->arena, (result->count + result->furthers + 1) * sizeof *list);
+    nh_named_current *list =
+        nh_arena_alloc(result->arena, (result->list->count + result->list->furthers + 1) * sizeof *list);
     size_t count = 0;
-    result->theory = nh_theory_of(result->arena, result->model, result->other, result->count, &result->options);
-    for (size_t k = 0; k < result->count; k++) {
-        const nh_current *f = &result->found[k];
+    result->theory = nh_theory_of(result->arena, result->question->model, result->question->other, result->list->count,
+                                  &result->question->options);
+    for (size_t k = 0; k < result->list->count; k++) {
+        const nh_current *f = &result->list->found[k];
         if (f->has_symmetry && !f->series) nh_theory_add(result->arena, result->theory, f->name, &f->symmetry);
         if (f->proof.proved && !f->series) list[count++] = (nh_named_current){f->name, f->phi, f->energy};
     }
-    for (size_t k = 0; k < result->furthers; k++) {
-        const nh_current *f = &result->further[k].current;
+    for (size_t k = 0; k < result->list->furthers; k++) {
+        const nh_current *f = &result->list->further[k].current;
         if (f->proof.proved && !f->series) list[count++] = (nh_named_current){f->name, f->phi, f->energy};
     }
     if (!nh_late())
-        nh_theory_space(result->arena, result->theory, count, list, counted_currents(result), &result->options);
+        nh_theory_space(result->arena, result->theory, count, list, counted_currents(result),
+                        &result->question->options);
 }
 
 /* ---- the steps of an analysis ---- */
@@ -340,38 +352,38 @@ static void say_what_ended_it(nh_analysis *result)
     const char *option = nh_ended_option();
     nh_ended_words(words, sizeof words);
     result->partial = true;
-    bool bare = result->count && !result->found[0].has_symmetry;
+    bool bare = result->list->count && !result->list->found[0].has_symmetry;
     nh_analysis_warn(result, "%s: the results are partial%s%s%s%s", words,
                      bare ? ", without the symmetries of the currents" : "",
                      result->validation ? "" : ", and no motion was computed", option ? "; raise the limit by " : "",
                      option ? option : "");
 }
 
-static bool run(nh_analysis *result, const nh_request *q, nh_error *error)
+static bool run(nh_analysis *result, nh_analysis_question *question, const nh_request *q, nh_error *error)
 {
     double start = nh_clock(), clock = start;
-    result->options = q->options;
-    result->left_out = q->left_out;
-    result->command = q->line ? nh_arena_strdup(result->arena, q->line) : NULL;
-    result->system_path = nh_arena_strdup(result->arena, q->system_path);
-    if (q->system_words) result->system_words = nh_arena_strdup(result->arena, q->system_words);
-    result->analysis_path = q->analysis_path ? nh_arena_strdup(result->arena, q->analysis_path) : NULL;
+    question->options = q->options;
+    question->left_out = q->left_out;
+    question->command = q->line ? nh_arena_strdup(result->arena, q->line) : NULL;
+    question->system_path = nh_arena_strdup(result->arena, q->system_path);
+    if (q->system_words) question->system_words = nh_arena_strdup(result->arena, q->system_words);
+    question->analysis_path = q->analysis_path ? nh_arena_strdup(result->arena, q->analysis_path) : NULL;
     nh_progress("the system file", -1);
-    if (!read_files(result, q, error)) return false;
-    merge_options(result, q);
-    result->route = result->analysis ? result->analysis->route : NH_ROUTE_BOTH;
+    if (!read_files(result, question, q, error)) return false;
+    merge_options(question, q);
+    question->route = question->analysis ? question->analysis->route : NH_ROUTE_BOTH;
     result->timing.read = lap(&clock);
     nh_progress("the equations of motion", -1);
-    nh_budget_begin(result->options.work);
-    bool made = nh_analyze_models(result, q, error);
+    nh_budget_begin(question->options.work);
+    bool made = nh_analyze_models(result, question, q, error);
     nh_budget_begin(INFINITY);
     if (!made) return false;
-    nh_deadline_set(result->options.max_seconds);
-    merge_options(result, q); /* now the motion of the analysis is known, too */
+    nh_deadline_set(question->options.max_seconds);
+    merge_options(question, q); /* now the motion of the analysis is known, too */
     result->timing.geometry = lap(&clock);
     if (q->model_only) return true;
-    size_t families = result->analysis ? result->analysis->families : 0;
-    nh_family *family = result->analysis ? result->analysis->family : NULL;
+    size_t families = question->analysis ? question->analysis->families : 0;
+    nh_family *family = question->analysis ? question->analysis->family : NULL;
     if (families == 0) {
         result->ansatz_note = "chosen by the program: stages made of the system's own functions";
         if (!nh_staged_search_run(result, error)) return false;
@@ -386,9 +398,9 @@ static bool run(nh_analysis *result, const nh_request *q, nh_error *error)
         solved = solved && linear_problem(result, families, family, &clock, error);
         if (!solved && !nh_late()) return false;
         if (!solved) nh_error_clear(error);
-        result->search = !solved                                        ? NH_SEARCH_CUT
-                         : result->independent >= result->local_maximum ? NH_SEARCH_COMPLETE
-                                                                        : NH_SEARCH_EXHAUSTED;
+        result->search = !solved                                                ? NH_SEARCH_CUT
+                         : result->list->independent >= question->local_maximum ? NH_SEARCH_COMPLETE
+                                                                                : NH_SEARCH_EXHAUSTED;
         if (!go_on(result, error)) return false;
     }
     if (!nh_late()) nh_agreement_find(result);
@@ -412,8 +424,11 @@ nh_analysis *nh_analysis_create(const nh_request *request, nh_error *error)
     nh_linalg_threads(1);
     nh_arena *arena = nh_arena_create();
     nh_analysis *result = nh_arena_alloc(arena, sizeof *result);
+    nh_analysis_question *question = nh_arena_alloc(arena, sizeof *question);
     result->arena = arena;
-    bool good = run(result, request, error);
+    result->question = question;
+    nh_current_list_begin(result);
+    bool good = run(result, question, request, error);
     nh_deadline_set(INFINITY);
     nh_budget_begin(INFINITY);
     if (good) return result;

@@ -17,10 +17,10 @@ static nh_independence beside_the_found(const nh_analysis *result, nh_ex phi)
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_points *points =
-        nh_points_create(result->model, points_of_rank, 1, (uint64_t)result->options.seed + 202, &ignored);
+    nh_points *points = nh_points_create(result->question->model, points_of_rank, 1,
+                                         (uint64_t)result->question->options.seed + 202, &ignored);
     if (!points) return NH_DOUBTFUL;
-    nh_independence out = nh_currents_beside(result, points, phi, true, result->options.doubt);
+    nh_independence out = nh_currents_beside(result, points, phi, true, result->question->options.doubt);
     nh_points_free(points);
     return out;
 }
@@ -28,11 +28,11 @@ static nh_independence beside_the_found(const nh_analysis *result, nh_ex phi)
 /* The state, "x = 1, y = 2". */
 static const char *state_in_words(const nh_analysis *result, const double *z)
 {
+    nh_model *model = result->question->model;
     nh_text text;
     nh_text_init(&text);
-    for (size_t j = 0; j < result->model->width; j++)
-        nh_text_addf(&text, "%s%s = %.6g", j ? ", " : "",
-                     nh_name_of(result->model->dag, result->model->chart->symbol[j]), z[j]);
+    for (size_t j = 0; j < model->width; j++)
+        nh_text_addf(&text, "%s%s = %.6g", j ? ", " : "", nh_name_of(model->dag, model->chart->symbol[j]), z[j]);
     const char *out = nh_arena_strdup(result->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
@@ -77,10 +77,10 @@ static void judge(nh_analysis *result, nh_stated *s, nh_ex value)
 {
     nh_error trouble;
     nh_error_clear(&trouble);
-    nh_verification v = {.arena = result->arena, .system = result->system, .model = result->model};
+    nh_verification v = {.arena = result->arena, .system = result->question->system, .model = result->question->model};
     s->verdict = NH_STATED_OPEN;
-    if (!nh_analysis_file_to_chart(result->model, value, &v.current, &trouble) ||
-        !nh_verification_decide(&v, &result->options, &trouble))
+    if (!nh_analysis_file_to_chart(result->question->model, value, &v.current, &trouble) ||
+        !nh_verification_decide(&v, &result->question->options, &trouble))
         s->obstacle = nh_arena_printf(result->arena, "%s", trouble.what);
     else if (v.conserved || v.region) confirm(result, s, &v);
     else refute(result, s, &v);
@@ -88,7 +88,7 @@ static void judge(nh_analysis *result, nh_stated *s, nh_ex value)
 
 void nh_analyze_known(nh_analysis *result)
 {
-    const nh_system *system = result->system;
+    const nh_system *system = result->question->system;
     result->stated =
         nh_arena_alloc(result->arena, (system->currents + system->not_conserved + 1) * sizeof *result->stated);
     for (size_t k = 0; k < system->currents + system->not_conserved && !nh_interrupted(); k++) {

@@ -5,9 +5,10 @@
 #include "commands/request.h"
 #include "search/analysis.h"
 
-/* Makes the model of the analysis in the velocities that are asked for, and the other one where there are
+/* Makes the models of the question in the velocities that are asked for, and the other one where there are
  * quasi-velocities: on the branch of the initial state, with samples on the time scale of the forces and of the speeds
  * that the constraints allow.  What differs from what a reader expects is a warning.  False with a message. */
-bool nh_analyze_models(nh_analysis *analysis, const nh_request *request, nh_error *error);
+bool nh_analyze_models(nh_analysis *analysis, nh_analysis_question *question, const nh_request *request,
+                       nh_error *error);
 
 #endif

@@ -83,7 +83,8 @@ static nh_analysis *analyse(const nh_classified *x, const nh_classify_request *q
 
 static bool polynomial_in_velocities(const nh_analysis *result, const nh_current *f)
 {
-    return f->proof.proved && !f->series && !nh_depends(result->model->dag, f->phi, result->system->t);
+    return f->proof.proved && !f->series &&
+           !nh_depends(result->question->model->dag, f->phi, result->question->system->t);
 }
 
 /* Reads the system and analyses it at values of the parameters that have no special meaning. */
@@ -117,21 +118,24 @@ static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error
 
 const nh_current *nh_classified_current(const nh_analysis *result, size_t index)
 {
-    return index < result->count ? &result->found[index] : &result->further[index - result->count].current;
+    const nh_current_list *list = result->list;
+    return index < list->count ? &list->found[index] : &list->further[index - list->count].current;
 }
 
 /* The currents that hold for every value, on the heap. */
 static nh_ex *known_currents(nh_classified *x)
 {
     const nh_analysis *result = x->almost_all;
-    nh_ex *phi = nh_alloc_array(result->count + result->furthers + 1, sizeof *phi);
-    x->currents = nh_arena_alloc(x->arena, (result->count + result->furthers + 1) * sizeof *x->currents);
-    for (size_t k = 0; k < result->count + result->furthers; k++) {
+    const nh_current_list *list = result->list;
+    nh_ex *phi = nh_alloc_array(list->count + list->furthers + 1, sizeof *phi);
+    x->currents = nh_arena_alloc(x->arena, (list->count + list->furthers + 1) * sizeof *x->currents);
+    for (size_t k = 0; k < list->count + list->furthers; k++) {
         const nh_current *f = nh_classified_current(result, k);
         if (!polynomial_in_velocities(result, f) || !f->proof.all_parameters) continue;
         bool rational = true;
-        for (size_t i = 0; i < result->system->parameters; i++)
-            rational &= nh_parametric_rational(result->model->dag, f->phi, result->model->parameter[i]);
+        for (size_t i = 0; i < result->question->system->parameters; i++)
+            rational &=
+                nh_parametric_rational(result->question->model->dag, f->phi, result->question->model->parameter[i]);
         if (!rational) continue;
         phi[x->known] = f->phi;
         x->currents[x->known++] = k;
@@ -180,7 +184,7 @@ void nh_classified_analyse(nh_classified *x, const nh_classify_request *q, const
     if (!result) return;
     nh_grow(&x->own, &x->owned_capacity, x->owned + 1, sizeof *x->own);
     x->own[x->owned++] = result;
-    out->count = result->count + result->furthers;
+    out->count = result->list->count + result->list->furthers;
     out->complete = complete_degree(x, result);
     out->exact = exact_degree(x, result, x->classification->rows, v->number);
 }
@@ -234,7 +238,7 @@ static size_t complete_within(const nh_classified *x, const nh_classify_special 
     size_t d = 0;
     if (!special || !special->first) return 0;
     if (c->obstacle == nh_parametric_constant)
-        d = within->known == result->count + result->furthers ? complete_degree(within, result) : 0;
+        d = within->known == result->list->count + result->list->furthers ? complete_degree(within, result) : 0;
     else
         while (d < c->rows && d < x->classification->rows && c->row[d].known == c->row[d].number.bound) d++;
     return d >= special->first ? d : 0;
@@ -340,7 +344,7 @@ static nh_classify_question question_of(const nh_classified *x, const nh_classif
     nh_error none;
     nh_error_clear(&none);
     for (size_t k = 0; k < x->parameters; k++)
-        find_parameter(x->almost_all->system, x->over[k], &question.parameter[k], &none);
+        find_parameter(x->almost_all->question->system, x->over[k], &question.parameter[k], &none);
     return question;
 }
 
@@ -350,10 +354,11 @@ nh_classified *nh_classify_system(const nh_classify_request *q, nh_error *error)
     if (!x) return NULL;
     nh_ex *phi = known_currents(x);
     nh_classify_question question = question_of(x, q, phi);
-    if (q->of != NH_OF_CURRENTS) x->question = nh_linear_system_create(x->almost_all->model, q->of, &q->options);
+    if (q->of != NH_OF_CURRENTS)
+        x->question = nh_linear_system_create(x->almost_all->question->model, q->of, &q->options);
     if (x->question) question.linear = &x->question->family;
     if (x->question && x->question->obstacle) x->classification = nh_classification_refused(x->question->obstacle);
-    else x->classification = nh_classify(x->almost_all->model, &question);
+    else x->classification = nh_classify(x->almost_all->question->model, &question);
     nh_free(phi);
     list_parts(x);
     examine_parts(x, q);

@@ -64,7 +64,8 @@ static void density(nh_classified *x, const nh_reduction_stage *s, nh_classified
     } else {
         nh_text_add(&text, x->of == NH_OF_MEASURE ? "have the invariant measure exp(sigma) dx dp"
                                                   : "become Hamiltonian by the factor exp(sigma/(n - 1))");
-        char *e = m->closed ? nh_print_short(s->chaplygin->dag, m->density, x->almost_all->options.shown) : NULL;
+        char *e =
+            m->closed ? nh_print_short(s->chaplygin->dag, m->density, x->almost_all->question->options.shown) : NULL;
         if (e) nh_text_addf(&text, ", exp(sigma) = %s", e);
         nh_free(e);
         out->complete = m->closed && m->proof.proved;

@@ -184,7 +184,8 @@ static nh_classified_place lifted(const nh_classified *x, const nh_classified_pa
     bool known = nh_special_rational(part->polynomial, &top, &bottom);
     if (known) number = nh_num_ratio(top, bottom);
     else
-        known = from->finding.result && number_of(from->finding.result->system, x->over[part->gives], &number) &&
+        known = from->finding.result &&
+                number_of(from->finding.result->question->system, x->over[part->gives], &number) &&
                 nh_num_short(number);
     out.value[part->gives] = known ? nh_classified_ratio(x->arena, number.p, number.q) : part->graph;
     out.about[part->gives] = known ? nh_num_value(number) : NAN;

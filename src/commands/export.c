@@ -191,7 +191,7 @@ static bool analyse(nh_export *x, const nh_request *q, nh_error *error)
 {
     x->analysis = nh_analysis_create(q, error);
     if (!x->analysis) return false;
-    x->model = x->analysis->model;
+    x->model = x->analysis->question->model;
     x->partial |= x->analysis->partial;
     if (x->analysis->partial) nh_export_note(x, "a limit ended the search for currents");
     return true;

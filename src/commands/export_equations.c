@@ -387,14 +387,15 @@ static void gradient(const scope *s, nh_ex e, size_t n, const nh_ex *symbol, boo
 
 static void currents_in(const scope *s, const nh_analysis *result, bool submanifold)
 {
+    const nh_current_list *list = result->list;
     size_t n = 1 + s->m + (submanifold ? s->n : s->m), count = 0;
-    nh_ex *symbol = take(s, n), *value = take(s, result->count), *slope = take(s, result->count * n);
-    const char **label = nh_arena_alloc(s->arena, (result->count + 1) * sizeof *label);
+    nh_ex *symbol = take(s, n), *value = take(s, list->count), *slope = take(s, list->count * n);
+    const char **label = nh_arena_alloc(s->arena, (list->count + 1) * sizeof *label);
     symbol[0] = s->o->system->t;
     memcpy(symbol + 1, s->q, s->m * sizeof *symbol);
     memcpy(symbol + 1 + s->m, submanifold ? s->o->chart->w : s->v, (n - 1 - s->m) * sizeof *symbol);
-    for (size_t i = 0; i < result->count; i++) {
-        const nh_current *f = &result->found[i];
+    for (size_t i = 0; i < list->count; i++) {
+        const nh_current *f = &list->found[i];
         if (!submanifold && !f->has_in_velocities) continue;
         label[count] = f->name;
         value[count] = submanifold ? f->phi : f->in_velocities;
@@ -418,8 +419,8 @@ static void currents_in(const scope *s, const nh_analysis *result, bool submanif
 
 void nh_export_currents(nh_export *x, const nh_analysis *result)
 {
-    scope s = scope_of(x, result->model);
-    if (!result->count) nh_export_note(x, "currents: none was found");
+    scope s = scope_of(x, result->question->model);
+    if (!result->list->count) nh_export_note(x, "currents: none was found");
     currents_in(&s, result, false);
     currents_in(&s, result, true);
 }

@@ -25,10 +25,10 @@ static bool open_motion(nh_simulation *s, const nh_analysis *result, const nh_re
                          .settings = settings,
                          .setting = setting,
                          .chart = q->chart,
-                         .options = result->options,
+                         .options = result->question->options,
                          .until_given = true,
                          .tolerance_given = true};
-    if (motion.chart == NH_CHART_AUTO) motion.chart = result->analysis->chart;
+    if (motion.chart == NH_CHART_AUTO) motion.chart = result->question->analysis->chart;
     return nh_simulate_read(s, &motion, initial, until, error);
 }
 
@@ -38,7 +38,7 @@ static nh_trajectory *integrate(nh_simulation *s, const nh_analysis *result, con
                                 const nh_figure_request *f, const nh_state *initial, double end, size_t count,
                                 double *times, nh_error *error)
 {
-    nh_options options = result->options;
+    nh_options options = result->question->options;
     nh_ex *e = nh_arena_alloc(s->arena, (f->quantities + 1) * sizeof *e);
     for (size_t k = 0; k < f->quantities; k++) e[k] = f->quantity[k].value;
     for (size_t i = 0; i < count; i++) times[i] = initial->t + (end - initial->t) * (double)i / (double)(count - 1);
@@ -82,7 +82,7 @@ static bool follow(nh_analysis *result, const nh_request *q, size_t which, doubl
     nh_state initial;
     double until;
     s->arena = arena;
-    bool good = open_motion(s, result, q, &result->analysis->figure[which], value, &initial, &until, error);
+    bool good = open_motion(s, result, q, &result->question->analysis->figure[which], value, &initial, &until, error);
     const nh_figure_request *f = good ? &s->analysis->figure[which] : NULL;
     double begin = good && f->has_time ? f->begin : initial.t, end = good && f->has_time ? f->end : until;
     out->time = nh_arena_alloc(result->arena, 2 * outputs * sizeof *out->time);
@@ -151,16 +151,17 @@ static void motions(nh_analysis *result, const nh_request *q, size_t which, nh_f
 
 static void scan(nh_analysis *result, nh_figure *figure)
 {
-    const nh_analysis_file *a = result->analysis;
+    nh_model *model = result->question->model;
+    const nh_analysis_file *a = result->question->analysis;
     const nh_unknown *u = &a->unknown[figure->request->unknown];
     nh_error trouble;
     nh_error_clear(&trouble);
     double *x = nh_arena_alloc(result->arena, scan_values * sizeof *x),
            *y = nh_arena_alloc(result->arena, scan_values * sizeof *y);
     for (size_t i = 0; i < scan_values; i++) x[i] = u->low + (u->high - u->low) * (double)i / (scan_values - 1);
-    nh_points *points = nh_points_create(result->model, scan_points, 1, (uint64_t)result->options.seed, &trouble);
+    nh_points *points = nh_points_create(model, scan_points, 1, (uint64_t)result->question->options.seed, &trouble);
     bool good = points && result->hits &&
-                nh_unknowns_scan(result->model, points, a->families, a->family, u, &result->options,
+                nh_unknowns_scan(model, points, a->families, a->family, u, &result->question->options,
                                  result->hits->generic, scan_values, x, y, &trouble);
     nh_points_free(points);
     if (!good) {
@@ -170,18 +171,19 @@ static void scan(nh_analysis *result, nh_figure *figure)
     }
     figure->curve = nh_arena_alloc(result->arena, 2 * sizeof *figure->curve);
     figure->curve[figure->curves++] =
-        (nh_figure_curve){nh_name_of(result->model->dag, u->symbol), 0, NAN, scan_values, x, y, NULL};
+        (nh_figure_curve){nh_name_of(model->dag, u->symbol), 0, NAN, scan_values, x, y, NULL};
 }
 
 /* The two values beside the gap for one number of samples; NAN where there is no such value. */
 static bool gap_at(const nh_analysis *result, const nh_ansatz *a, size_t count, double out[2], nh_error *error)
 {
-    nh_points *points = nh_points_create(result->model, count, 1, (uint64_t)result->options.seed, error);
+    nh_points *points =
+        nh_points_create(result->question->model, count, 1, (uint64_t)result->question->options.seed, error);
     if (!points) return false;
     nh_equations *equations = nh_equations_create(a->columns, 1);
-    nh_rows *rows = nh_rows_create(result->model, a, 0, NULL);
+    nh_rows *rows = nh_rows_create(result->question->model, a, 0, NULL);
     nh_rows_current(rows, points, NULL, equations);
-    nh_nullspace_options limits = nh_nullspace_options_from(&result->options);
+    nh_nullspace_options limits = nh_nullspace_options_from(&result->question->options);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, error);
     out[0] = s && s->dimension ? s->spectrum[s->dimension - 1] : NAN;
     out[1] = s && s->dimension < s->rank ? s->spectrum[s->dimension] : NAN;
@@ -198,11 +200,12 @@ static void samples(nh_analysis *result, size_t families, const nh_family *famil
     const nh_figure_request *f = figure->request;
     nh_error trouble;
     nh_error_clear(&trouble);
-    nh_points *ranges =
-        families ? nh_points_create(result->model, scan_points, 1, (uint64_t)result->options.seed, &trouble) : NULL;
-    nh_ansatz *a =
-        ranges ? nh_ansatz_create(result->model, ranges, families, family, (size_t)result->options.columns, &trouble)
-               : NULL;
+    nh_points *ranges = families ? nh_points_create(result->question->model, scan_points, 1,
+                                                    (uint64_t)result->question->options.seed, &trouble)
+                                 : NULL;
+    nh_ansatz *a = ranges ? nh_ansatz_create(result->question->model, ranges, families, family,
+                                             (size_t)result->question->options.columns, &trouble)
+                          : NULL;
     nh_points_free(ranges);
     double *x = nh_arena_alloc(result->arena, (f->values + 1) * sizeof *x), *y[2], gap[2];
     size_t n = 0;
@@ -225,7 +228,7 @@ static void samples(nh_analysis *result, size_t families, const nh_family *famil
 
 void nh_figures_compute(nh_analysis *result, const nh_request *q, size_t families, const nh_family *family)
 {
-    const nh_analysis_file *a = result->analysis;
+    const nh_analysis_file *a = result->question->analysis;
     if (!a || !a->figures) return;
     nh_progress("the figures of the analysis file", -1);
     result->figure = nh_arena_alloc(result->arena, a->figures * sizeof *result->figure);

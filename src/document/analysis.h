@@ -33,7 +33,5 @@ void nh_analysis_answer_completeness(const nh_analysis *result, nh_text *out);
 
 /* With its sign as readers know it: E and not -E. */
 nh_ex nh_analysis_answer_shown(const nh_analysis *result, const nh_current *found);
-/* How sure it is: of a proved one " for all m, k" or "", after "proved"; of another one a sentence without its end. */
-const char *nh_analysis_answer_proof(const nh_analysis *result, const nh_current *found);
 
 #endif

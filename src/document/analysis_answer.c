@@ -12,7 +12,6 @@
 #include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/fixed.h"
-#include "integrals/real_where.h"
 #include "search/explicit_motion.h"
 
 enum { formula_lines = 6, short_lines = 2, few_equations = 8 };
@@ -55,33 +54,35 @@ static const char *left_open(const nh_analysis *r)
 /* Every quantity. */
 static bool all_proved(const nh_analysis *r)
 {
+    const nh_current_list *list = r->list;
     bool all = true;
-    for (size_t k = 0; k < r->count; k++) all = all && r->found[k].proof.proved && !r->found[k].series;
+    for (size_t k = 0; k < list->count; k++) all = all && list->found[k].proof.proved && !list->found[k].series;
     return all;
 }
 
 void nh_analysis_answer_headline(const nh_analysis *r, nh_text *out)
 {
-    size_t n = r->independent, most = r->local_maximum;
+    const nh_current_list *list = r->list;
+    size_t n = list->independent, most = r->question->local_maximum;
     const char *proved = all_proved(r) ? " and proved" : "";
     size_t ends = nh_analysis_to_the_end(r);
-    if (!r->count && r->verdict == NH_FOUND)
+    if (!list->count && r->verdict == NH_FOUND)
         nh_text_addf(out, "%zu quantit%s conserved until motions end. At most %zu can exist.", ends,
                      ends == 1 ? "y is" : "ies are", most);
-    else if (!r->count && r->verdict == NH_NONE) nh_text_add(out, "Nothing that was tried is conserved.");
-    else if (!r->count && r->pieces) nh_text_add(out, "Nothing was found that is conserved along all motions.");
-    else if (!r->count) nh_text_add(out, "Undecided: nothing was found that is surely conserved.");
+    else if (!list->count && r->verdict == NH_NONE) nh_text_add(out, "Nothing that was tried is conserved.");
+    else if (!list->count && list->pieces) nh_text_add(out, "Nothing was found that is conserved along all motions.");
+    else if (!list->count) nh_text_add(out, "Undecided: nothing was found that is surely conserved.");
     else if (n == most && n == 1) nh_text_addf(out, "The only conserved quantity that can exist was found%s.", proved);
     else if (n == most) nh_text_addf(out, "All %zu conserved quantities that can exist were found%s.", n, proved);
-    else if (n == 1 && nh_current_is_energy(&r->found[0]))
+    else if (n == 1 && nh_current_is_energy(&list->found[0]))
         nh_text_addf(out, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.", most);
     else
         nh_text_addf(out, "%zu independent conserved quantit%s found. At most %zu can exist.", n,
                      n == 1 ? "y was" : "ies were", most);
     const nh_explicit_motion *m = r->motion;
-    if (r->count && m && m->proved && m->known == m->states && !m->integrals)
+    if (list->count && m && m->proved && m->known == m->states && !m->integrals)
         nh_text_addf(out, " The motion is known in closed form%s%s%s.", m->fixed ? " for " : "",
-                     m->fixed ? nh_fixed_text(r->model, m->fixed) : "", m->region ? ", piece by piece" : "");
+                     m->fixed ? nh_fixed_text(r->question->model, m->fixed) : "", m->region ? ", piece by piece" : "");
     if (*left_open(r)) nh_text_addf(out, " %s", left_open(r));
 }
 
@@ -90,15 +91,15 @@ static void headline(const screen *x)
     nh_text words;
     nh_text_init(&words);
     nh_analysis_answer_headline(x->r, &words);
-    nh_screen_begin(x->out, x->colour, x->r->system, NULL, &words);
+    nh_screen_begin(x->out, x->colour, x->r->question->system, NULL, &words);
 }
 
 /* ---- the quantities ---- */
 
 nh_ex nh_analysis_answer_shown(const nh_analysis *r, const nh_current *f)
 {
-    nh_ex e = nh_chart_shown(r->model->chart, nh_current_signed(r, f, f->phi));
-    return nh_formula_shortened(r->analysis, r->model->dag, e);
+    nh_ex e = nh_chart_shown(r->question->model->chart, nh_current_signed(r, f, f->phi));
+    return nh_formula_shortened(r->question->analysis, r->question->model->dag, e);
 }
 
 /* "2  p_x = m*x'"; NULL: the words in its place.  Was the formula written? */
@@ -110,42 +111,10 @@ static bool put_formula(const screen *x, size_t number, const char *label, char 
     return written;
 }
 
-/* " with w^2 - W^2 != 0", ", real where k > 0" */
-static void put_where(const nh_analysis *r, const nh_current *f, nh_text *out)
-{
-    nh_ex found[NH_MOST_REAL_WHERE];
-    bool parameters = !f->series && (f->proof.all_parameters || f->proof.fixed);
-    size_t n = parameters ? nh_real_where_divisors(r->model, f->phi, found) : 0;
-    for (size_t i = 0; i < n; i++) {
-        nh_text_add(out, i ? " and " : " with ");
-        nh_print(r->model->dag, found[i], out);
-        nh_text_add(out, " != 0");
-    }
-    n = f->series ? 0 : nh_real_where(r->model, f->phi, found);
-    for (size_t i = 0; i < n; i++) {
-        nh_text_add(out, i ? " and " : ", real where ");
-        nh_print(r->model->dag, found[i], out);
-        nh_text_add(out, " > 0");
-    }
-}
-
-/* How sure it is: of a proved one " for all m, k" or "", after "proved"; of another one a sentence. */
-const char *nh_analysis_answer_proof(const nh_analysis *r, const nh_current *f)
-{
-    nh_text out;
-    nh_text_init(&out);
-    if (!f->proof.proved) nh_text_addf(&out, "Conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
-    nh_text_addf(&out, "%s%s", nh_facts_holds(r->model, &f->proof, true), nh_facts_which_branch(r, f));
-    put_where(r, f, &out);
-    const char *text = nh_arena_strdup(r->arena, nh_text_string(&out));
-    nh_text_clear(&out);
-    return text;
-}
-
 /* "1 to 3, 5": the quantities that are marked; how many. */
 static size_t put_numbers(const screen *x, const bool *marked, nh_text *out)
 {
-    size_t members = 0, n = x->r->count;
+    size_t members = 0, n = x->r->list->count;
     for (size_t i = 0, end; i < n; i = end + 1) {
         end = i;
         if (!marked[i]) continue;
@@ -161,37 +130,41 @@ static size_t put_numbers(const screen *x, const bool *marked, nh_text *out)
 static void put_proofs(const screen *x)
 {
     const nh_analysis *r = x->r;
+    const nh_current_list *list = r->list;
     size_t groups = 0;
     nh_text words;
-    if (!r->count) return;
+    if (!list->count) return;
     nh_text_init(&words);
-    bool *same = nh_alloc_array(r->count, sizeof *same);
-    for (size_t k = 0; k < r->count; k++) {
+    bool *same = nh_alloc_array(list->count, sizeof *same);
+    for (size_t k = 0; k < list->count; k++) {
         size_t first = 0, members = 0;
         while (strcmp(x->proof[first], x->proof[k])) first++;
         if (first < k) continue;
         nh_text_add(&words, groups ? "; " : "");
         bool all = true;
-        for (size_t i = 0; i < r->count; i++) all &= same[i] = !strcmp(x->proof[i], x->proof[k]);
+        for (size_t i = 0; i < list->count; i++) all &= same[i] = !strcmp(x->proof[i], x->proof[k]);
         if (!all) members = put_numbers(x, same, &words);
-        if (all) nh_text_add(&words, r->count == 1 ? "Proved" : r->count == 2 ? "Both are proved" : "All are proved");
+        if (all)
+            nh_text_add(&words, list->count == 1 ? "Proved" : list->count == 2 ? "Both are proved" : "All are proved");
         else if (!groups) nh_text_add(&words, members > 1 ? " are proved" : " is proved");
         nh_text_add(&words, x->proof[k][0] || all || !groups ? x->proof[k] : " for all parameter values");
         groups++;
     }
     nh_free(same);
     nh_text_add(&words, ".");
-    say(x, r->count == 1 ? 3 : 0, &words);
+    say(x, list->count == 1 ? 3 : 0, &words);
 }
 
 /* Those that are functions on the coverings of the angles' circles only. */
 static void put_local(const screen *x)
 {
     const nh_analysis *r = x->r;
+    const nh_current_list *list = r->list;
     nh_text words;
     nh_text_init(&words);
-    bool *local = nh_alloc_array(r->count + 1, sizeof *local);
-    for (size_t k = 0; k < r->count; k++) local[k] = r->found[k].local && r->found[k].independence != NH_DEPENDENT;
+    bool *local = nh_alloc_array(list->count + 1, sizeof *local);
+    for (size_t k = 0; k < list->count; k++)
+        local[k] = list->found[k].local && list->found[k].independence != NH_DEPENDENT;
     size_t n = put_numbers(x, local, &words);
     if (n) nh_text_addf(&words, " change%s when an angle makes a full turn.", n == 1 ? "s" : "");
     say(x, 0, &words);
@@ -201,16 +174,16 @@ static void put_local(const screen *x)
 static bool has_parts(const screen *x, size_t k)
 {
     for (size_t i = 0; i < x->list.parts; i++)
-        if (nh_depends(x->r->model->dag, x->list.formula[k], x->list.part[i].symbol)) return true;
+        if (nh_depends(x->r->question->model->dag, x->list.formula[k], x->list.part[i].symbol)) return true;
     return false;
 }
 
 static void put_quantity(const screen *x, size_t k)
 {
     const nh_analysis *r = x->r;
-    const nh_current *f = &r->found[k];
+    const nh_current *f = &r->list->found[k];
     bool written = !f->series && x->list.stands[k] && !(x->terse >= BARE && has_parts(x, k));
-    char *formula = written ? nh_print_string(r->model->dag, x->list.formula[k]) : NULL;
+    char *formula = written ? nh_print_string(r->question->model->dag, x->list.formula[k]) : NULL;
     x->written[k] = put_formula(x, k + 1, nh_current_label(r, f), formula,
                                 f->series                 ? "a series (--details)"
                                 : nh_current_is_energy(f) ? x->energy
@@ -226,15 +199,15 @@ static bool fits_line(size_t indent, size_t n, const nh_current_words *s, nh_tex
 /* The formulas, and below those that belong together what they are. */
 static void put_quantities(const screen *x)
 {
-    size_t n = x->r->count;
+    size_t n = x->r->list->count;
     nh_current_words *full = nh_arena_alloc(x->r->arena, (n + 1) * sizeof *full), *s = full;
     if (x->terse >= PLAIN) s = nh_arena_alloc(x->r->arena, (n + 1) * sizeof *s);
     nh_text text;
     nh_text_init(&text);
     for (size_t k = 0; k < n; k++) {
         const char *proof = x->all_proved ? NULL : x->proof[k];
-        full[k] = nh_current_words_of(x->r, &x->r->found[k], true, proof);
-        if (s != full) s[k] = nh_current_words_of(x->r, &x->r->found[k], false, proof);
+        full[k] = nh_current_words_of(x->r, &x->r->list->found[k], true, proof);
+        if (s != full) s[k] = nh_current_words_of(x->r, &x->r->list->found[k], false, proof);
     }
     for (size_t k = 0, end; k < n; k = end) {
         bool alike = true;
@@ -255,11 +228,11 @@ static void put_quantities(const screen *x)
  * only. */
 static void put_parts(const screen *x)
 {
-    nh_dag *d = x->r->model->dag;
+    nh_dag *d = x->r->question->model->dag;
     bool used[NH_FORMULA_PARTS] = {false};
     for (size_t i = 0; i < x->list.parts && x->list.named; i++) {
         const nh_formula_part *part = x->list.part;
-        for (size_t k = 0; k < x->r->count; k++)
+        for (size_t k = 0; k < x->r->list->count; k++)
             used[i] |= x->written[k] && nh_depends(d, x->list.formula[k], part[i].symbol);
         for (size_t j = 0; j < i; j++) used[i] |= used[j] && nh_depends(d, part[j].value, part[i].symbol);
         if (!used[i]) continue;
@@ -280,26 +253,29 @@ static void put_parts(const screen *x)
 static void put_regions(const screen *x)
 {
     const nh_analysis *r = x->r;
-    for (size_t k = 0; k < r->pieces; k++) {
-        const nh_current *f = &r->piece[k];
+    const nh_current_list *list = r->list;
+    for (size_t k = 0; k < list->pieces; k++) {
+        const nh_current *f = &list->piece[k];
         nh_text words;
         nh_text_init(&words);
-        char *formula = nh_print_short(r->model->dag, nh_analysis_answer_shown(r, f), r->options.shown);
-        put_formula(x, r->count + k + 1, "", formula, NULL);
+        char *formula =
+            nh_print_short(r->question->model->dag, nh_analysis_answer_shown(r, f), r->question->options.shown);
+        put_formula(x, list->count + k + 1, "", formula, NULL);
         nh_text_addf(&words, "Constant only %s. %s%s.", f->region, f->proof.proved ? "Proved" : "",
-                     nh_analysis_answer_proof(r, f));
-        say(x, r->count + k < 9 ? 3 : 4, &words);
+                     nh_facts_proof(r, f));
+        say(x, list->count + k < 9 ? 3 : 4, &words);
     }
 }
 
 static void quantities(screen *x)
 {
     const nh_analysis *r = x->r;
-    nh_ex *e = nh_alloc_array(r->count + 1, sizeof *e);
+    const nh_current_list *list = r->list;
+    nh_ex *e = nh_alloc_array(list->count + 1, sizeof *e);
     size_t names = 0;
-    for (size_t k = 0; k < r->count; k++) e[k] = nh_analysis_answer_shown(r, &r->found[k]);
-    x->list = nh_formula_list_make(r->model->dag, r->count, e, r->options.shown, &names);
-    if (r->count) nh_text_add(x->out, "\n");
+    for (size_t k = 0; k < list->count; k++) e[k] = nh_analysis_answer_shown(r, &list->found[k]);
+    x->list = nh_formula_list_make(r->question->model->dag, list->count, e, r->question->options.shown, &names);
+    if (list->count) nh_text_add(x->out, "\n");
     put_quantities(x);
     put_parts(x);
     nh_formula_list_clear(&x->list);
@@ -315,7 +291,7 @@ static void quantities(screen *x)
 static const char *functions_of(const nh_analysis *r, bool time)
 {
     enum { most_named = 4 };
-    const nh_system *s = r->system;
+    const nh_system *s = r->question->system;
     if (s->coordinates > most_named) return time ? "t and the coordinates" : "the coordinates";
     const char *text = time ? "t" : "";
     for (size_t i = 0; i < s->coordinates; i++)
@@ -336,7 +312,7 @@ static bool is_plain(const nh_analysis *r, const nh_completeness *c)
 void nh_analysis_answer_completeness(const nh_analysis *r, nh_text *out)
 {
     const nh_completeness *c = counted_first(r), *time = &r->completeness[NH_COMPLETE_IN_TIME];
-    if (r->search == NH_SEARCH_COMPLETE && r->independent >= r->local_maximum) return;
+    if (r->search == NH_SEARCH_COMPLETE && r->list->independent >= r->question->local_maximum) return;
     if (!c || !is_plain(r, c)) {
         nh_facts_completeness(r, out);
     } else {
@@ -348,7 +324,7 @@ void nh_analysis_answer_completeness(const nh_analysis *r, nh_text *out)
         if (timed && time->degree < c->degree)
             nh_text_addf(out, " (up to degree %zu if they may contain t)", time->degree);
         else if (timed) nh_text_add(out, ", which may contain t");
-        nh_text_addf(out, "%s: proved.", r->count ? ", apart from combinations of these" : "");
+        nh_text_addf(out, "%s: proved.", r->list->count ? ", apart from combinations of these" : "");
         const nh_completeness *open = c->missing_at ? c : timed && time->missing_at ? time : NULL;
         if (open)
             nh_text_addf(out, " At degree %zu%s %zu more %s not ruled out.", open->missing_at,
@@ -370,18 +346,19 @@ static void completeness(const screen *x)
 static void motion(const screen *x)
 {
     const nh_analysis *r = x->r;
+    const nh_current_list *list = r->list;
     const nh_validation *v = r->validation;
     double worst = 0;
     size_t measured = 0;
-    for (size_t k = 0; k < r->count && v; k++) {
-        double drift = r->found[k].drift.drift[NH_DRIFT_RUNS - 1];
+    for (size_t k = 0; k < list->count && v; k++) {
+        double drift = list->found[k].drift.drift[NH_DRIFT_RUNS - 1];
         if (isfinite(drift)) worst = fmax(worst, drift), measured++;
     }
     if (!measured) return;
     nh_text words;
     nh_text_init(&words);
     nh_text_addf(&words, "Along a computed motion (t = %.4g to %.4g) ", v->begin, v->end);
-    if (measured < r->count)
+    if (measured < list->count)
         nh_text_addf(&words, "%zu of them could be followed: %s", measured,
                      measured > 1 ? "they change" : "it changes");
     else nh_text_add(&words, measured > 1 ? "they change" : "it changes");
@@ -397,15 +374,15 @@ static void put_constraints(const screen *x, nh_text *out)
 {
     enum { most_written = 3 };
     const nh_analysis *r = x->r;
-    const nh_system *s = r->system;
-    if (!r->model->k) return;
+    const nh_system *s = r->question->system;
+    if (!r->question->model->k) return;
     nh_text words;
     nh_text_init(&words);
     nh_text_addf(&words, "The %s", s->constraints == 1 ? "constraint" : "constraints");
     for (size_t a = 0; a < s->constraints && s->constraints <= most_written; a++)
         nh_text_addf(&words, "%s %s", a ? "," : "", s->constraint[a].text);
     nh_text_addf(&words, " %s %s.", s->constraints == 1 ? "is" : "are",
-                 nh_constraint_integrability(r->model, &r->constraint));
+                 nh_constraint_integrability(r->question->model, &r->question->constraint));
     nh_screen_paragraph(0, 0, nh_text_string(&words), out);
     nh_text_clear(&words);
 }
@@ -414,7 +391,7 @@ static void put_constraints(const screen *x, nh_text *out)
 static void equations(const screen *x, size_t room)
 {
     const nh_analysis *r = x->r;
-    const nh_model *o = r->model;
+    const nh_model *o = r->question->model;
     bool all = true;
     nh_text block;
     nh_text_init(&block);
@@ -425,7 +402,7 @@ static void equations(const screen *x, size_t room)
     for (size_t i = 0; i < o->n && all; i++) {
         nh_ex a = nh_chart_shown(o->chart, o->a[i]);
         all = nh_screen_equation(nh_arena_printf(o->arena, "%s'", nh_name_of(o->dag, o->chart->w[i])), o->dag,
-                                 nh_formula_shortened(r->analysis, o->dag, a), &block);
+                                 nh_formula_shortened(r->question->analysis, o->dag, a), &block);
     }
     size_t n = nh_screen_count(nh_text_string(&block));
     bool fits = all && (n <= few_equations || n <= room);
@@ -437,29 +414,29 @@ static void more(const screen *x)
 {
     const nh_analysis *r = x->r;
     nh_screen_more(x->out,
-                   r->motion     ? "symmetries, equations, the motion, checks, the search"
-                   : r->model->k ? "symmetries, equations, constraint forces, checks, the search"
-                                 : "symmetries, equations, checks, the search",
+                   r->motion               ? "symmetries, equations, the motion, checks, the search"
+                   : r->question->model->k ? "symmetries, equations, constraint forces, checks, the search"
+                                           : "symmetries, equations, checks, the search",
                    "--html FILE the same, with the motion, in a page");
 }
 
 static void furthers(const screen *x)
 {
     nh_text words;
-    if (!x->r->furthers) return;
+    if (!x->r->list->furthers) return;
     nh_text_init(&words);
-    nh_text_addf(&words, "%zu further polynomial%s conserved too, as %s of these (--details)", x->r->furthers,
-                 x->r->furthers > 1 ? "s are" : " is", x->r->furthers > 1 ? "functions" : "a function");
-    nh_current_words first = {.name = ""}, *s = nh_arena_alloc(x->r->arena, x->r->furthers * sizeof *s);
+    nh_text_addf(&words, "%zu further polynomial%s conserved too, as %s of these (--details)", x->r->list->furthers,
+                 x->r->list->furthers > 1 ? "s are" : " is", x->r->list->furthers > 1 ? "functions" : "a function");
+    nh_current_words first = {.name = ""}, *s = nh_arena_alloc(x->r->arena, x->r->list->furthers * sizeof *s);
     bool alike = true;
-    for (size_t i = 0; i < x->r->furthers; i++) {
-        s[i] = nh_current_words_of(x->r, &x->r->further[i].current, false, NULL);
+    for (size_t i = 0; i < x->r->list->furthers; i++) {
+        s[i] = nh_current_words_of(x->r, &x->r->list->further[i].current, false, NULL);
         s[i].rest = "";
         if (!i) first = s[i];
         alike &= nh_current_words_agree(&s[i], &first);
     }
     nh_text_add(&words, alike && *first.of ? ": " : ".");
-    if (alike && *first.of) nh_current_words_put(x->r->furthers, s, &words);
+    if (alike && *first.of) nh_current_words_put(x->r->list->furthers, s, &words);
     say(x, 0, &words);
 }
 
@@ -475,7 +452,8 @@ static void write(screen *x)
     const nh_analysis *r = x->r;
     /* what was noted when the file was read: the answer may be that of another system than was meant */
     size_t notes = 0;
-    while (notes < r->system->notes && notes < r->warnings && !strcmp(r->warning[notes], r->system->note[notes]))
+    while (notes < r->question->system->notes && notes < r->warnings &&
+           !strcmp(r->warning[notes], r->question->system->note[notes]))
         notes++;
     headline(x);
     warnings(x, 0, notes);
@@ -495,11 +473,11 @@ void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
     nh_text text;
     nh_text_init(&text);
     screen x = {.r = r, .out = &text, .colour = colour, .all_proved = all_proved(r)};
-    x.proof = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.proof);
-    x.written = nh_arena_alloc(r->arena, (r->count + 1) * sizeof *x.written);
-    for (size_t k = 0; k < r->count; k++) {
-        x.proof[k] = nh_analysis_answer_proof(r, &r->found[k]);
-        if (nh_current_is_energy(&r->found[k])) x.energy = nh_current_energy_named(r);
+    x.proof = nh_arena_alloc(r->arena, (r->list->count + 1) * sizeof *x.proof);
+    x.written = nh_arena_alloc(r->arena, (r->list->count + 1) * sizeof *x.written);
+    for (size_t k = 0; k < r->list->count; k++) {
+        x.proof[k] = nh_facts_proof(r, &r->list->found[k]);
+        if (nh_current_is_energy(&r->list->found[k])) x.energy = nh_current_energy_named(r);
     }
     write(&x);
     while (nh_screen_count(nh_text_string(&text)) > NH_SCREEN_LINES && x.terse < LIST) {

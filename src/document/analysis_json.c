@@ -24,7 +24,7 @@ typedef struct {
 /* NULL, and counted, when it is too long. */
 static char *text_of(const writer *w, nh_ex e)
 {
-    char *text = nh_print_short(w->dag, nh_formula_shown(w->r, e), w->r->options.written);
+    char *text = nh_print_short(w->dag, nh_formula_shown(w->r, e), w->r->question->options.written);
     *w->left_out += !text;
     return text;
 }
@@ -59,16 +59,16 @@ static void put_integrals(const writer *w, nh_json *to)
 {
     const nh_analysis *result = w->r;
     nh_json *item = nh_json_put_object(to, "hidden_holonomic");
-    nh_json_put_number(item, "count", (double)result->constraint.hidden);
+    nh_json_put_number(item, "count", (double)result->question->constraint.hidden);
     nh_json *functions = nh_json_put_array(item, "functions");
     for (size_t i = 0; i < result->integrals; i++) {
-        const nh_current *f = &result->found[result->integral[i]];
+        const nh_current *f = &result->list->found[result->integral[i]];
         nh_json *line = nh_json_add_object(functions);
         nh_json_put_text(line, "current", f->name);
         put_expression(w, line, "expression", f->phi);
         nh_json_put_bool(line, "local", f->local);
     }
-    nh_json_put_number(item, "without_closed_form", (double)(result->constraint.hidden - result->integrals));
+    nh_json_put_number(item, "without_closed_form", (double)(result->question->constraint.hidden - result->integrals));
 }
 
 static void put_branch(const writer *w, nh_json *to)
@@ -87,7 +87,7 @@ static void put_branch(const writer *w, nh_json *to)
 static void put_constraint(const writer *w, nh_json *to)
 {
     static const char *const spaces[] = {"positions", "time and positions", "submanifold"};
-    const nh_distribution *d = &w->r->constraint;
+    const nh_distribution *d = &w->r->question->constraint;
     const nh_growth *g = &d->growth;
     nh_json *item = nh_json_put_object(to, "constraint");
     nh_json_put_text(item, "type", nh_constraint_type_name(d->type));
@@ -97,7 +97,7 @@ static void put_constraint(const writer *w, nh_json *to)
     else nh_json_put_bool(item, "semiholonomic", d->holonomic);
     nh_json_put_bool(item, "holonomic", d->holonomic);
     nh_json_put_bool(item, "rheonomic", d->rheonomic);
-    nh_json_put_text(item, "integrability", nh_constraint_integrability(w->r->model, d));
+    nh_json_put_text(item, "integrability", nh_constraint_integrability(w->r->question->model, d));
     put_ranks(item, "growth_vector", g->length, g->rank);
     nh_json_put_text(item, "growth_space", g->length ? spaces[g->space] : "none");
     nh_json_put_bool(item, "growth_proved", g->proved);
@@ -114,17 +114,19 @@ static void put_constraint(const writer *w, nh_json *to)
 static void put_system(const writer *w, nh_json *to)
 {
     const nh_analysis *result = w->r;
+    nh_model *model = result->question->model;
     nh_json_put_number(to, "schema", 1);
     nh_json_put_text(to, "version", NH_VERSION);
-    nh_json_put_text(to, "system", result->system->name);
-    nh_json_put_text(to, "title", result->system->title);
+    nh_json_put_text(to, "system", result->question->system->name);
+    nh_json_put_text(to, "title", result->question->system->title);
     nh_json *parameters = nh_json_put_object(to, "parameters");
-    for (size_t i = 0; i < result->system->parameters; i++)
-        nh_json_put_number(parameters, result->system->parameter[i].name, result->system->parameter[i].value);
+    for (size_t i = 0; i < result->question->system->parameters; i++)
+        nh_json_put_number(parameters, result->question->system->parameter[i].name,
+                           result->question->system->parameter[i].value);
     nh_json *dimension = nh_json_put_object(to, "dimension");
-    nh_json_put_number(dimension, "coordinates", (double)result->model->m);
-    nh_json_put_number(dimension, "constraints", (double)result->model->k);
-    nh_json_put_number(dimension, "submanifold", (double)(1 + result->model->m + result->model->n));
+    nh_json_put_number(dimension, "coordinates", (double)model->m);
+    nh_json_put_number(dimension, "constraints", (double)model->k);
+    nh_json_put_number(dimension, "submanifold", (double)(1 + model->m + model->n));
     put_constraint(w, to);
 }
 
@@ -153,11 +155,11 @@ static nh_json *add_chart(const writer *w, nh_json *charts, const nh_model *mode
 static void put_equations(const writer *w, nh_json *to)
 {
     const nh_analysis *result = w->r;
-    nh_json_put_text(to, "chart", result->model->chart->name);
-    nh_json *charts = nh_json_put_array(to, "charts"), *own = add_chart(w, charts, result->model);
+    nh_json_put_text(to, "chart", result->question->model->chart->name);
+    nh_json *charts = nh_json_put_array(to, "charts"), *own = add_chart(w, charts, result->question->model);
     nh_json_put_copy(to, "reduced_equations", nh_json_get(own, "reduced_equations"));
     nh_json_put_copy(to, "multipliers", nh_json_get(own, "multipliers"));
-    if (result->other) add_chart(w, charts, result->other);
+    if (result->question->other) add_chart(w, charts, result->question->other);
 }
 
 /* ---- the search ---- */
@@ -189,7 +191,7 @@ static void put_unknowns(const writer *w, nh_json *to)
     const nh_analysis *result = w->r;
     nh_json *item = nh_json_put_object(to, "unknowns");
     for (size_t j = 0; result->hits && j < result->hits->unknowns; j++) {
-        nh_json *values = nh_json_put_array(item, nh_name_of(w->dag, result->analysis->unknown[j].symbol));
+        nh_json *values = nh_json_put_array(item, nh_name_of(w->dag, result->question->analysis->unknown[j].symbol));
         for (size_t k = 0; k < result->specials; k++) {
             const nh_special *s = &result->special[k];
             nh_json *value = nh_json_add_object(values);
@@ -240,7 +242,7 @@ static void put_search(const writer *w, nh_json *to)
     nh_json_put_number(samples, "used", (double)result->samples);
     nh_json_put_number(samples, "beyond_chart", (double)result->beyond);
     nh_json_put_number(samples, "rejected", (double)result->rejected);
-    nh_json_put_number(samples, "seed", result->options.seed);
+    nh_json_put_number(samples, "seed", result->question->options.seed);
     put_unknowns(w, to);
     nh_analysis_json_completeness(result, to);
     nh_analysis_json_stages(result, to);
@@ -251,7 +253,8 @@ static void put_search(const writer *w, nh_json *to)
 static void put_field(const writer *w, nh_json *to, const nh_current *f)
 {
     const nh_analysis *result = w->r;
-    const nh_model *model = result->model, *basis = result->other ? result->other : result->model;
+    const nh_model *model = result->question->model,
+                   *basis = result->question->other ? result->question->other : result->question->model;
     const nh_symmetry *z = &f->symmetry;
     nh_json *item = nh_json_put_object(to, "symmetry");
     put_expression(w, item, "Z0", z->Z0);
@@ -260,11 +263,11 @@ static void put_field(const writer *w, nh_json *to, const nh_current *f)
     nh_json *components = nh_json_put_object(item, "components");
     put_expression(w, components, "t", z->Z0);
     for (size_t s = 0; s < model->m; s++)
-        put_expression(w, components, result->system->coordinate[s].name, z->field.space[s]);
+        put_expression(w, components, result->question->system->coordinate[s].name, z->field.space[s]);
     for (size_t i = 0; i < basis->n; i++) {
-        nh_ex e = result->other ? 0 : z->W[i];
-        for (size_t s = 0; s < model->m && result->other; s++)
-            if (basis->chart->w[i] == result->system->coordinate[s].v) e = z->coordinate_rate[s];
+        nh_ex e = result->question->other ? 0 : z->W[i];
+        for (size_t s = 0; s < model->m && result->question->other; s++)
+            if (basis->chart->w[i] == result->question->system->coordinate[s].v) e = z->coordinate_rate[s];
         put_expression(w, components, nh_name_of(w->dag, basis->chart->w[i]), e);
     }
     nh_field_term *term;
@@ -328,7 +331,7 @@ static void put_series(const writer *w, nh_json *to, const nh_series *series)
 /* The formula in LaTeX; null when it is too long to be shown. */
 static void put_latex(const writer *w, nh_json *to, nh_ex e)
 {
-    char *text = nh_print_short(w->dag, nh_formula_shown(w->r, e), w->r->options.shown);
+    char *text = nh_print_short(w->dag, nh_formula_shown(w->r, e), w->r->question->options.shown);
     nh_text latex;
     nh_text_init(&latex);
     bool good = text && nh_typeset(text, NH_LATEX, &latex);
@@ -350,7 +353,7 @@ static void put_briefly(const writer *w, nh_json *item, const nh_current *f)
     nh_json_put_number(item, "certified_digits", floor(f->proof.digits));
     nh_json_put_bool(item, "proved", f->proof.proved);
     nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
-    nh_facts_put_holds(item, w->r->model, &f->proof);
+    nh_facts_put_holds(item, w->r->question->model, &f->proof);
 }
 
 static void put_current(const writer *w, nh_json *currents, const nh_current *f)
@@ -358,11 +361,13 @@ static void put_current(const writer *w, nh_json *currents, const nh_current *f)
     nh_json *item = nh_json_add_object(currents);
     put_briefly(w, item, f);
     nh_json_put_number(item, "residual", f->quotient);
-    if (w->r->model->chart->branch) nh_json_put_bool(item, "on_both_branches", f->on_both);
+    if (w->r->question->model->chart->branch) nh_json_put_bool(item, "on_both_branches", f->on_both);
     else nh_json_put_null(item, "on_both_branches");
     nh_ex found[NH_MOST_REAL_WHERE];
-    put_expressions(w, item, "real_where_positive", f->series ? 0 : nh_real_where(w->r->model, f->phi, found), found);
-    put_expressions(w, item, "nonzero", f->series ? 0 : nh_real_where_divisors(w->r->model, f->phi, found), found);
+    put_expressions(w, item, "real_where_positive", f->series ? 0 : nh_real_where(w->r->question->model, f->phi, found),
+                    found);
+    put_expressions(w, item, "nonzero", f->series ? 0 : nh_real_where_divisors(w->r->question->model, f->phi, found),
+                    found);
     nh_json_put_bool(item, "exact", f->exact);
     nh_json_put_number(item, "printed_digits", floor(f->printed_digits));
     nh_json_put_bool(item, "independent", f->independence == NH_INDEPENDENT);
@@ -390,14 +395,14 @@ static void put_current(const writer *w, nh_json *currents, const nh_current *f)
 static void put_others(const writer *w, nh_json *root)
 {
     nh_json *list = nh_json_put_array(root, "currents_in_regions");
-    for (size_t k = 0; k < w->r->pieces; k++) {
+    for (size_t k = 0; k < w->r->list->pieces; k++) {
         nh_json *item = nh_json_add_object(list);
-        put_briefly(w, item, &w->r->piece[k]);
-        nh_json_put_text(item, "region", w->r->piece[k].region);
+        put_briefly(w, item, &w->r->list->piece[k]);
+        nh_json_put_text(item, "region", w->r->list->piece[k].region);
     }
     list = nh_json_put_array(root, "further_integrals");
-    for (size_t k = 0; k < w->r->furthers; k++) {
-        const nh_further_integral *g = &w->r->further[k];
+    for (size_t k = 0; k < w->r->list->furthers; k++) {
+        const nh_further_integral *g = &w->r->list->further[k];
         nh_json *item = nh_json_add_object(list);
         put_briefly(w, item, &g->current);
         nh_json_put_number(item, "degree", (double)g->degree);
@@ -438,33 +443,35 @@ static void put_timing(const nh_timing *t, nh_json *to)
 
 char *nh_analysis_json(const nh_analysis *result)
 {
+    const nh_options *options = &result->question->options;
+    const nh_current_list *list = result->list;
     size_t left_out = 0;
-    writer w = {result, result->model->dag, &left_out};
+    writer w = {result, result->question->model->dag, &left_out};
     nh_json *root = nh_json_object();
     put_system(&w, root);
     put_equations(&w, root);
     nh_motion_sheet_json(result, root);
-    nh_geometry_json(result->arena, result->theory, result->analysis, root);
+    nh_geometry_json(result->arena, result->theory, result->question->analysis, root);
     put_search(&w, root);
     nh_json *currents = nh_json_put_array(root, "currents");
-    for (size_t k = 0; k < result->count; k++) put_current(&w, currents, &result->found[k]);
+    for (size_t k = 0; k < list->count; k++) put_current(&w, currents, &list->found[k]);
     put_others(&w, root);
     put_almost(&w, root);
     nh_analysis_json_stated(result, root);
-    nh_json_put_number(root, "independent_currents", (double)result->independent);
-    nh_json_put_number(root, "local_maximum", (double)result->local_maximum);
+    nh_json_put_number(root, "independent_currents", (double)list->independent);
+    nh_json_put_number(root, "local_maximum", (double)result->question->local_maximum);
     nh_analysis_json_validation(result, root);
     nh_analysis_json_figures(result, root);
     nh_json_put_bool(root, "partial", result->partial);
-    nh_run_json(&(nh_run){result->command, result->system_path, result->analysis_path, result->options.seed,
-                          result->options.shown, result->timing.total, NULL},
-                result->system, root);
+    nh_run_json(&(nh_run){result->question->command, result->question->system_path, result->question->analysis_path,
+                          options->seed, options->shown, result->timing.total, NULL},
+                result->question->system, root);
     put_timing(&result->timing, root);
     nh_json *warnings = nh_json_put_array(root, "warnings");
     for (size_t i = 0; i < result->warnings; i++) nh_json_add_text(warnings, result->warning[i]);
     char note[200];
     snprintf(note, sizeof note, "%zu formula%s longer than %.0f symbols and null here (option `written`)", left_out,
-             left_out == 1 ? " is" : "s are", result->options.written);
+             left_out == 1 ? " is" : "s are", options->written);
     if (left_out) nh_json_add_text(warnings, note);
     size_t holes = nh_analysis_json_holes(result);
     snprintf(note, sizeof note,

@@ -20,7 +20,8 @@ static void put_motion(const nh_analysis *result, nh_json *to)
     nh_time_series_json(c, motion, "multipliers", NH_TRACK_MULTIPLIER);
     nh_time_series_json_drawing(c, motion);
     nh_json *watch = nh_time_series_json(c, to, "watch", NH_TRACK_WATCH);
-    if (result->analysis && result->analysis->watches) nh_json_put_numbers(watch, "t", v->count, v->time, 1);
+    if (result->question->analysis && result->question->analysis->watches)
+        nh_json_put_numbers(watch, "t", v->count, v->time, 1);
     nh_time_series_free(c);
 }
 
@@ -42,7 +43,7 @@ void nh_analysis_json_validation(const nh_analysis *result, nh_json *to)
     nh_accuracy_json(v->checked ? &v->accuracy : NULL, item);
     nh_json *drift = nh_json_put_object(item, "drift");
     for (size_t k = 0; k < v->currents; k++)
-        nh_json_put_numbers(drift, result->found[k].name, NH_DRIFT_RUNS, v->current[k].drift, 1);
+        nh_json_put_numbers(drift, result->list->found[k].name, NH_DRIFT_RUNS, v->current[k].drift, 1);
     if (v->multiplier_form) {
         nh_json *full = nh_json_put_object(item, "multiplier_form");
         nh_json_put_text(full, "method", v->multiplier_method);
@@ -75,6 +76,7 @@ void nh_analysis_json_validation(const nh_analysis *result, nh_json *to)
 
 void nh_analysis_json_stated(const nh_analysis *result, nh_json *to)
 {
+    nh_model *model = result->question->model;
     nh_json *list = nh_json_put_array(to, "stated");
     for (size_t i = 0; i < result->stateds; i++) {
         const nh_stated *s = &result->stated[i];
@@ -96,8 +98,8 @@ void nh_analysis_json_stated(const nh_analysis *result, nh_json *to)
             continue;
         }
         nh_json *state = nh_json_put_object(item, "state");
-        for (size_t j = 0; j < result->model->width; j++)
-            nh_json_put_number(state, nh_name_of(result->model->dag, result->model->chart->symbol[j]), s->state[j]);
+        for (size_t j = 0; j < model->width; j++)
+            nh_json_put_number(state, nh_name_of(model->dag, model->chart->symbol[j]), s->state[j]);
         nh_json_put_number(item, "rate", s->rate);
     }
 }
@@ -127,12 +129,13 @@ void nh_analysis_json_figures(const nh_analysis *result, nh_json *to)
 
 size_t nh_analysis_json_holes(const nh_analysis *result)
 {
+    const nh_current_list *list = result->list;
     const nh_validation *v = result->validation;
-    size_t holes = 0, k = result->model->k;
+    size_t holes = 0, k = result->question->model->k;
     for (size_t j = 0; v && j < v->watches; j++) {
         bool series = false; /* is it a series?  Its values end with its interval */
-        for (size_t c = 0; c < result->count; c++)
-            series |= result->found[c].series && result->tracks.track[j].value == result->found[c].phi;
+        for (size_t c = 0; c < list->count; c++)
+            series |= list->found[c].series && result->tracks.track[j].value == list->found[c].phi;
         for (size_t i = 0; i < v->count && !series; i++) holes += !isfinite(v->watch[i * v->watches + j]);
     }
     for (size_t i = 0; v && i < v->count * k; i++) holes += !isfinite(v->multiplier[i]);

@@ -29,7 +29,7 @@ static void answer_of_a_page(nh_pen *p, const nh_analysis *result)
     nh_pen_say(p, "%s", nh_text_string(&words));
     nh_pen_close(p, NH_PEN_ANSWER);
     nh_text_clear(&words);
-    if (result->count && result->verdict == NH_UNDECIDED)
+    if (result->list->count && result->verdict == NH_UNDECIDED)
         nh_pen_words(p, "Not all of them are certified; each card states its certificate.");
     if (result->partial) nh_pen_warning(p, nh_facts_search(result));
     nh_analysis_answer_completeness(result, &words);
@@ -39,23 +39,24 @@ static void answer_of_a_page(nh_pen *p, const nh_analysis *result)
 
 static void answer_of_details(nh_pen *p, const nh_analysis *result)
 {
+    const nh_current_list *list = result->list;
     static const char *const verdict[] = {"FOUND", "NONE", "UNDECIDED"};
     nh_text words;
     nh_text_init(&words);
     nh_facts_completeness(result, &words);
     nh_pen_open(p, NH_PEN_ANSWER, NULL, NULL);
     nh_pen_say(p, "%s: ", verdict[result->verdict]);
-    if (result->count)
-        nh_pen_say(p, "%zu independent current%s of at most %zu", result->independent, plural(result->independent),
-                   result->local_maximum);
+    if (list->count)
+        nh_pen_say(p, "%zu independent current%s of at most %zu", list->independent, plural(list->independent),
+                   result->question->local_maximum);
     else if (result->verdict == NH_FOUND) nh_pen_say(p, "%s", nh_facts_between_walls(result));
     else
-        nh_pen_say(p, "no current%s %s", result->pieces ? " of all motions" : "",
+        nh_pen_say(p, "no current%s %s", list->pieces ? " of all motions" : "",
                    result->verdict == NH_NONE ? "in this ansatz" : "so far");
     nh_pen_say(p, nh_analysis_by_trial(result) ? " (unknowns sought by trial)" : " (search %s)",
                nh_search_word(result->search));
     nh_pen_close(p, NH_PEN_ANSWER);
-    if (result->count && result->verdict == NH_UNDECIDED)
+    if (list->count && result->verdict == NH_UNDECIDED)
         nh_pen_words(p, "Not all of them are certified; each card states its certificate.");
     if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
     if (nh_analysis_by_trial(result)) nh_pen_words(p, "%s", nh_facts_search(result));
@@ -85,7 +86,7 @@ static void links(nh_pen *p, const nh_analysis *result)
     nh_text_addf(&sections, "system|System|%scurrents|Currents|%s%s%ssearch|%s|words|Words|repeat|Repeat it",
                  result->theory ? "geometry|Geometry|" : "", result->motion ? "explicit|Explicit motion|" : "",
                  result->validation ? "motion|Validation|" : "", result->figures ? "figures|Figures|" : "",
-                 result->count ? "How it was found" : "The search");
+                 result->list->count ? "How it was found" : "The search");
     p->ink->links(p->to, nh_text_string(&sections));
     nh_text_clear(&sections);
 }
@@ -101,7 +102,7 @@ static void explicit_motion(nh_pen *p, const nh_analysis *result)
 
 static void as_a_paper(nh_pen *p, const nh_analysis *result)
 {
-    nh_pen_system(p, result->model, result);
+    nh_pen_system(p, result->question->model, result);
     nh_pen_geometry(p, result->arena, result->theory);
     nh_analysis_write_currents(p, result);
     explicit_motion(p, result);
@@ -114,27 +115,35 @@ static void on_a_terminal(nh_pen *p, const nh_analysis *result)
 {
     nh_analysis_write_currents(p, result);
     nh_analysis_write_motion(p, result);
-    nh_pen_system(p, result->model, result);
+    nh_pen_system(p, result->question->model, result);
     explicit_motion(p, result);
     nh_pen_geometry(p, result->arena, result->theory);
 }
 
 void nh_analysis_write(const nh_analysis *result, nh_pen_style style, nh_text *out)
 {
+    const nh_options *options = &result->question->options;
     if (nh_screen_is_wanted(style) && !result->theory) {
         nh_analysis_write_answer(result, style.colour, out);
         return;
     }
     nh_pen pen, *p = &pen;
-    nh_run run = {result->command,       result->system_path,  result->analysis_path, result->options.seed,
-                  result->options.shown, result->timing.total, result->system_words};
-    const nh_chart *chart = result->other && result->other->chart->roots ? result->other->chart : result->model->chart;
-    nh_pen_subject subject = {.system = result->system,
-                              .analysis = result->analysis,
-                              .dag = result->model->dag,
+    nh_run run = {result->question->command,
+                  result->question->system_path,
+                  result->question->analysis_path,
+                  options->seed,
+                  options->shown,
+                  result->timing.total,
+                  result->question->system_words};
+    const nh_chart *chart = result->question->other && result->question->other->chart->roots
+                                ? result->question->other->chart
+                                : result->question->model->chart;
+    nh_pen_subject subject = {.system = result->question->system,
+                              .analysis = result->question->analysis,
+                              .dag = result->question->model->dag,
                               .chart = chart,
-                              .shown = result->options.shown,
-                              .written = result->options.written};
+                              .shown = options->shown,
+                              .written = options->written};
     nh_pen_begin(p, style, &subject, NULL, out);
     if (p->ink->brief) answer_of_details(p, result);
     else answer_of_a_page(p, result);

@@ -20,17 +20,18 @@
 
 static void real_where(nh_pen *p, const nh_analysis *result, const nh_current *f)
 {
+    nh_model *model = result->question->model;
     nh_ex found[NH_MOST_REAL_WHERE];
     bool parameters = !f->series && (f->proof.all_parameters || f->proof.fixed);
-    size_t n = parameters ? nh_real_where_divisors(result->model, f->phi, found) : 0;
+    size_t n = parameters ? nh_real_where_divisors(model, f->phi, found) : 0;
     for (size_t i = 0; i < n; i++) {
-        char *text = nh_print_string(result->model->dag, found[i]);
+        char *text = nh_print_string(model->dag, found[i]);
         nh_pen_say(p, i ? " and <%s> != 0" : " with <%s> != 0", text);
         nh_free(text);
     }
-    n = f->series ? 0 : nh_real_where(result->model, f->phi, found);
+    n = f->series ? 0 : nh_real_where(model, f->phi, found);
     for (size_t i = 0; i < n; i++) {
-        char *text = nh_print_string(result->model->dag, found[i]);
+        char *text = nh_print_string(model->dag, found[i]);
         nh_pen_say(p, i ? " and <%s> > 0" : ", real where <%s> > 0", text);
         nh_free(text);
     }
@@ -41,7 +42,7 @@ static void certificate(nh_pen *p, const nh_analysis *result, const nh_current *
     nh_pen_fact_begin(p, "Certified");
     if (f->proof.proved) nh_pen_say(p, "proved");
     else nh_pen_say(p, "conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
-    nh_pen_say(p, "%s%s", nh_facts_holds(result->model, &f->proof, false), nh_facts_which_branch(result, f));
+    nh_pen_say(p, "%s%s", nh_facts_holds(result->question->model, &f->proof, false), nh_facts_which_branch(result, f));
     real_where(p, result, f);
     nh_pen_say(p, "; residual %.2g outside the fit", f->heldout);
     nh_pen_close(p, NH_PEN_FACT);
@@ -75,7 +76,7 @@ static void tags(nh_pen *p, const nh_analysis *result, const nh_current *f)
  * those of the geometry, where it is shown; defined once in a document, where they first occur. */
 static void forms(nh_pen *p, const nh_analysis *result, nh_sheet *sheet)
 {
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     nh_dag *d = model->dag;
     if (p->forms) return;
     p->forms = true;
@@ -109,14 +110,14 @@ static void field(nh_pen *p, const nh_analysis *result, const nh_current *f)
     nh_field_term *term;
     double length = 0;
     size_t n = nh_formula_field(result, &f->symmetry, &term),
-           k = f->symmetry.bracket_in_distribution ? 0 : result->model->k;
-    nh_sheet *sheet = nh_sheet_create(result->arena, result->model->dag);
-    sheet->analysis = result->analysis;
+           k = f->symmetry.bracket_in_distribution ? 0 : result->question->model->k;
+    nh_sheet *sheet = nh_sheet_create(result->arena, result->question->model->dag);
+    sheet->analysis = result->question->analysis;
     sheet->chart = p->of.chart;
-    sheet->shown = result->options.shown;
+    sheet->shown = result->question->options.shown;
     nh_sheet_begin(sheet, "", "", "");
     for (size_t i = 0; i < n; i++) length += (double)nh_complexity(sheet->dag, term[i].coefficient);
-    if (p->ink->brief && length > in_text * result->options.shown) {
+    if (p->ink->brief && length > in_text * result->question->options.shown) {
         nh_pen_words(p, "Z has %zu symbols: the page shows it, and so does --option shown=%zu here", (size_t)length,
                      (size_t)ceil(length / in_text));
         return;
@@ -139,12 +140,13 @@ static void field(nh_pen *p, const nh_analysis *result, const nh_current *f)
 
 static void as_text(nh_pen *p, const nh_analysis *result, const nh_current *f)
 {
-    nh_dag *d = result->model->dag;
+    nh_dag *d = result->question->model->dag;
     nh_ex own = nh_formula_shown(result, f->phi);
     if (!p->ink->screen) return;
-    bool other = f->has_in_velocities && f->in_velocities != nh_chart_in_velocities(result->model->chart, own);
-    char *text = nh_print_short(d, own, result->options.shown),
-         *plain = other ? nh_print_short(d, f->in_velocities, result->options.shown) : NULL;
+    bool other =
+        f->has_in_velocities && f->in_velocities != nh_chart_in_velocities(result->question->model->chart, own);
+    char *text = nh_print_short(d, own, result->question->options.shown),
+         *plain = other ? nh_print_short(d, f->in_velocities, result->question->options.shown) : NULL;
     if (text || plain) {
         nh_pen_open(p, NH_PEN_SCREEN, NULL, "As text, to copy");
         if (text) nh_pen_code(p, text);
@@ -161,13 +163,13 @@ static void as_text(nh_pen *p, const nh_analysis *result, const nh_current *f)
 /* Does the name occur in the current, or in its field, as they are shown? */
 static bool stands_in(const nh_analysis *result, const nh_current *f, const char *name)
 {
-    nh_dag *d = result->model->dag;
+    nh_dag *d = result->question->model->dag;
     nh_ex symbol = nh_symbol(d, name);
     nh_field_term *term;
     bool any = !f->series && nh_depends(d, nh_formula_shown(result, f->phi), symbol);
     size_t n = f->has_symmetry && !f->series && !any ? nh_formula_field(result, &f->symmetry, &term) : 0;
     for (size_t i = 0; i < n && !any; i++)
-        any = nh_depends(d, nh_formula_shortened(result->analysis, d, term[i].coefficient), symbol);
+        any = nh_depends(d, nh_formula_shortened(result->question->analysis, d, term[i].coefficient), symbol);
     return any;
 }
 
@@ -185,7 +187,7 @@ static bool has_word(const char *text, const char *word)
  * that these need. */
 static void definitions(nh_pen *p, const nh_analysis *result, const nh_current *f, bool *told)
 {
-    const nh_analysis_file *a = result->analysis;
+    const nh_analysis_file *a = result->question->analysis;
     size_t n = a ? a->definitions : 0;
     bool any = false, *now = nh_arena_alloc(result->arena, (n + 1) * sizeof *now);
     for (size_t i = n; i-- > 0;) {
@@ -207,13 +209,13 @@ static void definitions(nh_pen *p, const nh_analysis *result, const nh_current *
  * submanifold. */
 static bool energy_in_all_velocities(const nh_analysis *result, const nh_current *f, nh_ex *E)
 {
-    nh_dag *d = result->model->dag;
-    const nh_system *system = result->system;
+    nh_dag *d = result->question->model->dag;
+    const nh_system *system = result->question->system;
     bool itself = f->energy && (!strcmp(f->meaning, "energy") || !strncmp(f->meaning, "minus", 5));
     size_t length = itself ? nh_complexity(d, f->phi) : 0;
     if (length <= NH_SYMMETRY_LENGTHY || system->orientations) return false;
     *E = nh_neg(d, system->lagrangian);
-    for (size_t i = 0; i < result->model->m; i++) {
+    for (size_t i = 0; i < result->question->model->m; i++) {
         nh_ex v = system->coordinate[i].v;
         *E = nh_add(d, *E, nh_mul(d, v, nh_diff(d, system->lagrangian, v)));
     }
@@ -224,14 +226,14 @@ static bool energy_in_all_velocities(const nh_analysis *result, const nh_current
 /* The field d/dt belongs to minus the energy: E is written beside it, because readers know E rather than -E. */
 static void closed_form(nh_pen *p, const nh_analysis *result, const nh_current *f)
 {
-    nh_dag *d = result->model->dag;
+    nh_dag *d = result->question->model->dag;
     nh_ex symbol = nh_symbol(d, "E"), E = nh_neg(d, f->phi);
     bool minus = !strncmp(f->meaning, "minus", 5), taken = nh_depends(d, f->phi, symbol),
          all = !taken && energy_in_all_velocities(result, f, &E);
     if (f->energy && !taken && (minus || all))
         nh_pen_formulas(p, 2, (const char *[]){f->name, "E"}, (nh_ex[]){minus ? nh_neg(d, symbol) : symbol, E});
     else nh_pen_formula(p, f->name, f->phi);
-    if (all && result->model->k)
+    if (all && result->question->model->k)
         nh_pen_words(p, "E is written in all velocities, which satisfy the constraints: it is longer in those of the "
                         "chart.");
 }
@@ -288,19 +290,20 @@ static void uncounted(nh_pen *p, const nh_analysis *result, const nh_current *f,
 
 static void furthers(nh_pen *p, const nh_analysis *result)
 {
+    const nh_current_list *list = result->list;
     const char *those = "";
-    if (result->furthers) {
+    if (list->furthers) {
         nh_pen_heading(p, "Further integrals");
         nh_pen_words(p, "These integrals are polynomial in the velocities. They are functions of the currents above: "
                         "they are not counted.");
-        those = nh_arena_printf(result->arena, "$<%s>$", result->found[0].name);
-        if (result->count > 1)
-            those = nh_arena_printf(result->arena, "%s to $<%s>$", those, result->found[result->count - 1].name);
+        those = nh_arena_printf(result->arena, "$<%s>$", list->found[0].name);
+        if (list->count > 1)
+            those = nh_arena_printf(result->arena, "%s to $<%s>$", those, list->found[list->count - 1].name);
     }
-    for (size_t k = 0; k < result->furthers; k++) {
-        const char *where = result->further[k].current.region;
-        uncounted(p, result, &result->further[k].current,
-                  nh_arena_printf(result->arena, "degree %zu; depends on %s%s%s", result->further[k].degree, those,
+    for (size_t k = 0; k < list->furthers; k++) {
+        const char *where = list->further[k].current.region;
+        uncounted(p, result, &list->further[k].current,
+                  nh_arena_printf(result->arena, "degree %zu; depends on %s%s%s", list->further[k].degree, those,
                                   where ? "; " : "", where ? where : ""));
     }
     if (result->relations) nh_pen_heading(p, "Relations");
@@ -310,14 +313,15 @@ static void furthers(nh_pen *p, const nh_analysis *result)
 
 static void pieces(nh_pen *p, const nh_analysis *result)
 {
-    if (!result->pieces) return;
+    const nh_current_list *list = result->list;
+    if (!list->pieces) return;
     nh_pen_heading(p, "Constant only in a region");
     nh_pen_words(p, "These functions are constant while a motion stays in the given region. %s",
                  nh_analysis_to_the_end(result)
                      ? "A motion ends at a wall where it has an impulse: the equations of motion do not determine how "
                        "it continues."
                      : "They are not counted.");
-    for (size_t k = 0; k < result->pieces; k++) uncounted(p, result, &result->piece[k], result->piece[k].region);
+    for (size_t k = 0; k < list->pieces; k++) uncounted(p, result, &list->piece[k], list->piece[k].region);
 }
 
 static void almost(nh_pen *p, const nh_analysis *result)
@@ -358,18 +362,19 @@ static void stated(nh_pen *p, const nh_analysis *result)
 
 void nh_analysis_write_currents(nh_pen *p, const nh_analysis *result)
 {
-    const nh_analysis_file *a = result->analysis;
+    const nh_current_list *list = result->list;
+    const nh_analysis_file *a = result->question->analysis;
     if (!p->ink->brief) {
         nh_pen_section(p, "currents", "Currents");
         nh_pen_words(
             p, "A current is a function of time, coordinates and velocities that is constant along every motion.");
-        if (!result->count) nh_pen_words(p, "None was found. The stages of the search are listed below.");
+        if (!list->count) nh_pen_words(p, "None was found. The stages of the search are listed below.");
     }
     bool *told = nh_arena_alloc(result->arena, ((a ? a->definitions : 0) + 1) * sizeof *told);
     memset(told, 0, ((a ? a->definitions : 0) + 1) * sizeof *told);
-    for (size_t k = 0; k < result->count; k++) current(p, result, &result->found[k], told);
+    for (size_t k = 0; k < list->count; k++) current(p, result, &list->found[k], told);
     nh_pen_card_end(p);
-    if (result->count) definitions(p, result, NULL, told);
+    if (list->count) definitions(p, result, NULL, told);
     furthers(p, result);
     pieces(p, result);
     almost(p, result);

@@ -7,6 +7,7 @@
 #include "document/analysis.h"
 #include "document/analysis_internal.h"
 #include "document/current_words.h"
+#include "document/facts.h"
 #include "document/live.h"
 
 /* ---- the motion ---- */
@@ -24,7 +25,7 @@ static void drifts(nh_pen *p, const nh_analysis *result)
             double d = v->current[k].drift[i];
             snprintf(text[i], sizeof text[i], isfinite(d) ? "%.2g" : "\u2013", d);
         }
-        nh_pen_row(p, "#<%s>|%s|%s|%s", result->found[k].name, text[0], text[1], text[2]);
+        nh_pen_row(p, "#<%s>|%s|%s|%s", result->list->found[k].name, text[0], text[1], text[2]);
     }
     nh_pen_table_end(p);
 }
@@ -35,7 +36,7 @@ static const char *agree(double difference) { return difference > NH_MOTIONS_APA
 static void second_opinion(nh_pen *p, const nh_analysis *result)
 {
     const nh_validation *v = result->validation;
-    bool constrained = result->system->constraints > 0;
+    bool constrained = result->question->system->constraints > 0;
     if (v->crossing_chart && !isnan(v->crossing))
         nh_pen_words(p, "The chart of {%s} breaks down at t = %.4g; the chart of this motion is regular there.",
                      v->crossing_chart, v->crossing);
@@ -182,13 +183,14 @@ enum { room = 24 }; /* characters, for the names of parameters */
 /* The tracks of the analysis, then the multipliers: the lines of its time series. */
 static const nh_observables *with_multipliers(const nh_analysis *result)
 {
+    nh_model *model = result->question->model;
     nh_observables *t = nh_arena_alloc(result->arena, sizeof *t);
     *t = result->tracks;
-    t->track = nh_arena_alloc(result->arena, (t->count + result->model->k + 1) * sizeof *t->track);
+    t->track = nh_arena_alloc(result->arena, (t->count + model->k + 1) * sizeof *t->track);
     memcpy(t->track, result->tracks.track, t->count * sizeof *t->track);
-    for (size_t a = 0; a < result->model->k; a++)
+    for (size_t a = 0; a < model->k; a++)
         t->track[t->count++] =
-            (nh_track){nh_arena_printf(result->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, result->model->mu[a]};
+            (nh_track){nh_arena_printf(result->arena, "c%zu", a + 1), NH_TRACK_MULTIPLIER, model->mu[a]};
     return t;
 }
 
@@ -210,7 +212,7 @@ static const char *brief_proof(const nh_analysis *result, const nh_current *f)
 {
     static const char *const conditions[] = {" with ", ", real where "};
     static const char all[] = " for all ";
-    const char *sure = nh_analysis_answer_proof(result, f), *rest = sure + strlen(sure);
+    const char *sure = nh_facts_proof(result, f), *rest = sure + strlen(sure);
     for (size_t i = 0; i < sizeof conditions / sizeof *conditions; i++) {
         const char *at = strstr(sure, conditions[i]);
         if (at && at < rest) rest = at;
@@ -239,17 +241,18 @@ static nh_stage_row row_of(const nh_analysis *result, const nh_current *f)
 
 nh_stage *nh_analysis_stage(const nh_analysis *result, const nh_run *run)
 {
+    const nh_current_list *list = result->list;
     const nh_validation *v = result->validation;
     if (!v || v->count < 2) return NULL;
     nh_stage *s = nh_arena_alloc(result->arena, sizeof *s);
-    nh_stage_row *row = nh_arena_alloc(result->arena, (result->count + 1) * sizeof *row);
-    for (size_t k = 0; k < result->count; k++) row[k] = row_of(result, &result->found[k]);
+    nh_stage_row *row = nh_arena_alloc(result->arena, (list->count + 1) * sizeof *row);
+    for (size_t k = 0; k < list->count; k++) row[k] = row_of(result, &list->found[k]);
     const nh_observables *tracks = with_multipliers(result);
     *s = (nh_stage){.series = nh_time_series_of_analysis(result),
                     .tracks = tracks,
                     .live = nh_live_of_analysis(result, tracks),
-                    .command = nh_live_command(result->arena, run, result->system),
-                    .rows = result->count,
+                    .command = nh_live_command(result->arena, run, result->question->system),
+                    .rows = list->count,
                     .row = row};
     return s;
 }

@@ -85,9 +85,10 @@ static void comparisons(nh_pen *p, const nh_analysis *result)
 static void unknown(nh_pen *p, const nh_analysis *result, const nh_special *s, size_t j)
 {
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    nh_pen_say(p, "Unknown <%s> = ", nh_name_of(result->model->dag, result->analysis->unknown[j].symbol));
+    nh_pen_say(
+        p, "Unknown <%s> = ", nh_name_of(result->question->model->dag, result->question->analysis->unknown[j].symbol));
     if (s->recognised[j]) {
-        char *text = nh_print_string(result->model->dag, s->recognised[j]);
+        char *text = nh_print_string(result->question->model->dag, s->recognised[j]);
         nh_pen_say(p, "<%s> = ", text);
         nh_free(text);
     }
@@ -124,9 +125,9 @@ static void stages(nh_pen *p, const nh_analysis *result)
 
 void nh_analysis_write_search(nh_pen *p, const nh_analysis *result)
 {
-    nh_pen_section(p, "search", result->count ? "How it was found" : "The search");
+    nh_pen_section(p, "search", result->list->count ? "How it was found" : "The search");
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    nh_pen_say(p, result->count ? "Ansatz %s. %zu sample points" : "The ansatz was %s. %zu sample points",
+    nh_pen_say(p, result->list->count ? "Ansatz %s. %zu sample points" : "The ansatz was %s. %zu sample points",
                result->ansatz_note, result->samples);
     if (result->beyond) nh_pen_say(p, " and, near where the chart breaks down, %zu in all coordinates", result->beyond);
     nh_pen_say(p, ", %zu rejected.", result->rejected);

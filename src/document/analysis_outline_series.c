@@ -37,7 +37,7 @@ static void series_plot(nh_pen *p, const nh_analysis *result, const nh_current *
     snprintf(title, sizeof title, "Coefficient functions of %.100s", f->name);
     nh_plot plot = {.title = title,
                     .description = "The coefficient functions over their variable",
-                    .x_label = nh_name_of(result->model->dag, s->variable),
+                    .x_label = nh_name_of(result->question->model->dag, s->variable),
                     .y_label = n == 1 ? name[0] : "value",
                     .curves = n,
                     .curve = curve};
@@ -72,7 +72,7 @@ static void series_words(nh_pen *p, const nh_analysis *result, const nh_series *
     nh_pen_say(p,
                "Each f is a Chebyshev series of degree %zu in <%s>, without closed form among the functions of the "
                "search, on [%.6g, %.6g].",
-               s->degree, nh_name_of(result->model->dag, s->variable), s->low, s->high);
+               s->degree, nh_name_of(result->question->model->dag, s->variable), s->low, s->high);
     nh_pen_close(p, NH_PEN_WORDS);
 }
 
@@ -81,9 +81,9 @@ void nh_analysis_write_series(nh_pen *p, const nh_analysis *result, const nh_cur
 {
     enum { beside = 4 }; /* as many functions as a page is wide enough for */
     const nh_series *s = f->series;
-    const char *q = nh_name_of(result->model->dag, s->variable);
-    nh_sheet *sheet = nh_sheet_create(result->arena, result->model->dag);
-    sheet->shown = result->options.shown;
+    const char *q = nh_name_of(result->question->model->dag, s->variable);
+    nh_sheet *sheet = nh_sheet_create(result->arena, result->question->model->dag);
+    sheet->shown = result->question->options.shown;
     nh_sheet_begin(sheet, "", "", "");
     nh_sheet_sum(sheet, "", nh_sheet_label(sheet, "<%s>", f->name));
     for (size_t i = 0; i < s->words; i++)

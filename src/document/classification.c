@@ -15,7 +15,7 @@
 
 nh_ex nh_classification_formula(const nh_analysis *result, const nh_current *f)
 {
-    return f->has_in_velocities ? f->in_velocities : nh_chart_shown(result->model->chart, f->phi);
+    return f->has_in_velocities ? f->in_velocities : nh_chart_shown(result->question->model->chart, f->phi);
 }
 
 bool nh_classification_is_exact(const nh_classify_row *row) { return row->number.bound == row->known; }
@@ -89,7 +89,7 @@ const char *nh_classification_more(const nh_classified *x) { return WORDS[x->of]
 
 const char *nh_classification_side(const nh_classified *x)
 {
-    return x->of == NH_OF_CURRENTS ? nh_count_where(x->almost_all->model) : NULL;
+    return x->of == NH_OF_CURRENTS ? nh_count_where(x->almost_all->question->model) : NULL;
 }
 
 static void put_level(const nh_classified *x, size_t level, nh_text *out)
@@ -126,7 +126,7 @@ const char *nh_classification_zeros(const nh_classified *x, const nh_special_fac
 /* "integrals polynomial in the velocities, over eps, with coefficients ..., on the level ..., with k = 2" */
 void nh_classification_head(const nh_classified *x, nh_text *out)
 {
-    const nh_system *system = x->almost_all->system;
+    const nh_system *system = x->almost_all->question->system;
     nh_text_addf(out, "Classified: %s, over ", WORDS[x->of].subject);
     for (size_t v = x->parameters; v-- > 0;)
         nh_text_addf(out, "%s%s", x->over[v], v > 1 ? ", " : v == 1 ? " and " : "");
@@ -412,7 +412,7 @@ static void put_excluded_planes(const nh_classified *x, nh_text *out)
     nh_text_addf(out,
                  "  These planes are all with numerator and denominator of %s up to %.0f that were not "
                  "classified as a whole (option `planes`).\n",
-                 x->over[2], x->almost_all->options.planes);
+                 x->over[2], x->almost_all->question->options.planes);
     put_heights_within(x, out);
     nh_text_addf(out,
                  "  Not excluded: single points and curves in planes %s = constant, for other values of %s. "

@@ -12,7 +12,8 @@
 
 static char *text_of(const nh_analysis *result, const nh_current *f)
 {
-    return nh_print_string(result->model->dag, nh_current_signed(result, f, nh_classification_formula(result, f)));
+    return nh_print_string(result->question->model->dag,
+                           nh_current_signed(result, f, nh_classification_formula(result, f)));
 }
 
 /* Is the quantity one of those for almost all values?  Their meanings agree (energy, momenta), or their texts. */
@@ -35,11 +36,12 @@ static void put_currents(const nh_classified *x, const nh_classified_finding *at
 {
     enum { most_lines = 4 };
     const nh_analysis *result = at->result;
+    const nh_current_list *list = result->list;
     for (size_t k = 0; k < at->count; k++) {
         size_t i = at->index ? at->index[k] : k;
         const nh_current *f = nh_classified_current(result, i);
-        bool further = i >= result->count && result->further[i - result->count].degree <= first,
-             follows = f->independence == NH_DEPENDENT || i >= result->count;
+        bool further = i >= list->count && list->further[i - list->count].degree <= first,
+             follows = f->independence == NH_DEPENDENT || i >= list->count;
         if (!f->proof.proved || f->series || (!all && follows && !further)) continue;
         char *text = text_of(result, f);
         if (all || !is_known(x, f, text))
@@ -178,7 +180,7 @@ void nh_classification_write_answer(const nh_classified *x, bool colour, nh_text
     nh_text_init(&left);
     nh_text_init(&block);
     put_headline(x, &words);
-    nh_screen_begin(out, colour, x->almost_all->system, x->over, &words);
+    nh_screen_begin(out, colour, x->almost_all->question->system, x->over, &words);
     if (!x->classification->obstacle) {
         put_places(x, colour, tail, out);
         if (x->parameters < 3) nh_classification_left(x, &left);

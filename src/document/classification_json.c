@@ -32,7 +32,7 @@ static void put_head(const nh_classified *x, nh_json *root)
     for (size_t i = 0; i < x->fixed; i++) nh_json_put_number(parameters, x->other[i].name, x->other[i].value);
     nh_json_put_text(root, "of", nh_linear_question_name(x->of));
     nh_json_put_bool(root, "shape", x->shape);
-    const nh_system *system = x->almost_all->system;
+    const nh_system *system = x->almost_all->question->system;
     nh_json *levels = nh_json_put_array(root, "levels");
     for (size_t i = system->constraints - system->levels; i < system->constraints; i++)
         nh_json_add_text(levels, system->constraint[i].text);
@@ -48,7 +48,8 @@ static void put_currents(const nh_analysis *result, size_t count, const size_t *
     for (size_t k = 0; result && k < count; k++) {
         const nh_current *f = nh_classified_current(result, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
-        char *text = nh_print_short(result->model->dag, nh_classification_formula(result, f), result->options.written);
+        char *text = nh_print_short(result->question->model->dag, nh_classification_formula(result, f),
+                                    result->question->options.written);
         nh_json *item = nh_json_add_object(list);
         nh_json_put_text(item, "name", f->name);
         nh_json_put_text(item, "current", text);
@@ -186,6 +187,6 @@ char *nh_classification_json(const nh_classified *x, const nh_run *run)
     put_open(x, root);
     nh_json_put_bool(root, "nowhere_else", nh_classification_is_closed(x));
     nh_json_put_bool(root, "partial", x->partial);
-    nh_run_json(run, x->almost_all->system, root);
+    nh_run_json(run, x->almost_all->question->system, root);
     return nh_json_finish(root);
 }

@@ -32,7 +32,7 @@ static void write_currents(pen *p, const nh_analysis *result, size_t count, cons
         const nh_current *f = nh_classified_current(result, index ? index[k] : k);
         if (!f->proof.proved || f->series) continue;
         nh_ex e = nh_current_signed(result, f, nh_classification_formula(result, f));
-        char *text = nh_print_short(result->model->dag, e, result->options.shown);
+        char *text = nh_print_short(result->question->model->dag, e, result->question->options.shown);
         if (text) p->ink->equation(p->to, strcmp(nh_current_label(result, f), "E = ") ? f->name : "E", text);
         else nh_pen_words(p, "A longer current (option `shown`).");
         nh_free(text);
@@ -154,9 +154,10 @@ void nh_classification_write(const nh_classified *x, const nh_run *run, nh_pen_s
         return;
     }
     const nh_analysis *result = x->almost_all;
-    nh_pen_subject subject = {.system = result->system,
-                              .dag = result->model->dag,
-                              .chart = result->model->chart,
+    nh_model *model = result->question->model;
+    nh_pen_subject subject = {.system = result->question->system,
+                              .dag = model->dag,
+                              .chart = model->chart,
                               .shown = run->shown,
                               .open = {x->over[0], x->over[1], x->over[2]}};
     pen all, *p = &all;
@@ -173,7 +174,7 @@ void nh_classification_write(const nh_classified *x, const nh_run *run, nh_pen_s
                                          "words|Words|repeat|Repeat it",
                                          picture[x->parameters - 1]));
     if (!x->classification->obstacle) write_sections(x, p);
-    nh_pen_system(p, result->model, NULL);
+    nh_pen_system(p, model, NULL);
     nh_pen_glossary(p, "current, degree, proved, complete");
     nh_pen_end(p, run);
 }

@@ -68,7 +68,7 @@ static void widen_by_zeros(drawing *d, const nh_special_factor *s)
 static void choose_window(drawing *d)
 {
     const nh_classified *x = d->of;
-    const nh_system *system = x->almost_all->system;
+    const nh_system *system = x->almost_all->question->system;
     double at[most_crossings][2];
     for (size_t i = 0; i < system->parameters; i++)
         for (int v = 0; v < 2; v++)
@@ -208,7 +208,7 @@ void nh_classification_picture(const nh_classified *x, nh_pen *pen)
 {
     double nu[most_slices] = {0}, own = 1;
     size_t count = x->parameters == 2;
-    const nh_system *system = x->almost_all->system;
+    const nh_system *system = x->almost_all->question->system;
     if (!x->classification->rows) return;
     if (x->parameters == 3) {
         for (size_t i = 0; i < system->parameters; i++)

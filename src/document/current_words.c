@@ -62,7 +62,7 @@ static int power_of(const nh_model *model, nh_ex V)
 /* The components and their names; how many. */
 static size_t components(const nh_analysis *result, int power, nh_ex m, nh_ex V, nh_ex *e, const char **name)
 {
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     nh_dag *d = model->dag;
     const nh_coordinate *c = model->system->coordinate;
     nh_ex square = nh_int(d, 0), along = nh_int(d, 0);
@@ -88,7 +88,7 @@ static size_t components(const nh_analysis *result, int power, nh_ex m, nh_ex V,
 static const char *of_point(const nh_analysis *result, nh_ex phi, const char **of)
 {
     enum { terms = 2000 };
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     nh_ex V, m = point_mass(model, &V), e[most * (most + 1) / 2 + 1], c[most * (most + 1) / 2];
     const char *name[most * (most + 1) / 2];
     int power = m ? power_of(model, V) : NOT_CENTRAL;
@@ -107,15 +107,16 @@ static const char *of_point(const nh_analysis *result, nh_ex phi, const char **o
 /* "Component of the Laplace-Runge-Lenz vector along", "Quadratic in the velocities", or ""; of: what follows it. */
 static const char *name_of_form(const nh_analysis *result, nh_ex phi, const char **of)
 {
+    nh_model *model = result->question->model;
     static const char *const form[] = {"A function of the positions", "Linear in the velocities",
                                        "Quadratic in the velocities", "Cubic in the velocities",
                                        "Of degree 4 in the velocities"};
-    double degree = nh_counted_degree_of(result->model, phi);
+    double degree = nh_counted_degree_of(model, phi);
     *of = "";
     const char *name =
-        degree == 2 && !nh_depends(result->model->dag, phi, result->system->t) ? of_point(result, phi, of) : "";
+        degree == 2 && !nh_depends(model->dag, phi, result->question->system->t) ? of_point(result, phi, of) : "";
     if (*name) return name;
-    if (degree == 0 && nh_depends(result->model->dag, phi, result->system->t))
+    if (degree == 0 && nh_depends(model->dag, phi, result->question->system->t))
         return "A function of time and positions";
     return degree < sizeof form / sizeof *form ? form[(size_t)degree] : "";
 }
@@ -128,12 +129,12 @@ bool nh_current_is_energy(const nh_current *f) { return f->energy && (!strcmp(f-
 
 nh_ex nh_current_signed(const nh_analysis *result, const nh_current *f, nh_ex e)
 {
-    return is_minus(f) ? nh_neg(result->model->dag, e) : e;
+    return is_minus(f) ? nh_neg(result->question->model->dag, e) : e;
 }
 
 const char *nh_current_label(const nh_analysis *result, const nh_current *f)
 {
-    nh_dag *d = result->model->dag;
+    nh_dag *d = result->question->model->dag;
     if (nh_current_is_energy(f) && !nh_depends(d, f->phi, nh_symbol(d, "E"))) return "E = ";
     const char *of = strstr(f->meaning, "momentum of ");
     bool bare = of && (of == f->meaning || !strncmp(f->meaning, "minus the ", 10));
@@ -143,17 +144,18 @@ const char *nh_current_label(const nh_analysis *result, const nh_current *f)
 
 const char *nh_current_energy_named(const nh_analysis *result)
 {
-    const nh_system *system = result->system;
+    nh_model *model = result->question->model;
+    const nh_system *system = result->question->system;
     const nh_named *kinetic = NULL, *potential = NULL;
     for (size_t i = 0; i < system->definitions; i++) {
         const nh_named *x = &system->definition[i];
         if (!strcmp(x->name, "T")) kinetic = x;
         else if (!strcmp(x->name, "V") || (!potential && !strcmp(x->name, "U"))) potential = x;
     }
-    nh_dag *d = result->model->dag;
+    nh_dag *d = model->dag;
     if (!kinetic || !potential) return NULL;
-    nh_ex sum = nh_model_compose(result->model, nh_add(d, kinetic->value, potential->value));
-    bool equal = nh_normal_is_zero(d, nh_sub(d, result->model->E, sum), 0) == NH_ZERO;
+    nh_ex sum = nh_model_compose(model, nh_add(d, kinetic->value, potential->value));
+    bool equal = nh_normal_is_zero(d, nh_sub(d, model->E, sum), 0) == NH_ZERO;
     return equal ? nh_arena_printf(result->arena, "T + %s", potential->name) : NULL;
 }
 
@@ -173,8 +175,9 @@ static void name_it(const nh_analysis *result, const nh_current *f, bool rotatio
     const char *of = strstr(m, momentum), *before = !strncmp(m, multiple, strlen(multiple)) ? multiple : "";
     if (of) of += strlen(momentum);
     bool angle = false;
-    for (size_t s = 0; of && s < result->system->coordinates; s++)
-        angle |= !strcmp(of, result->system->coordinate[s].name) && result->system->coordinate[s].type == NH_ANGLE;
+    for (size_t s = 0; of && s < result->question->system->coordinates; s++)
+        angle |= !strcmp(of, result->question->system->coordinate[s].name) &&
+                 result->question->system->coordinate[s].type == NH_ANGLE;
     out->name = of          ? capital(result, nh_arena_printf(result->arena, "%s%smomentum conjugate to", before,
                                                      angle ? "angular " : ""))
                 : *m        ? capital(result, m)
@@ -193,7 +196,8 @@ nh_current_words nh_current_words_of(const nh_analysis *result, const nh_current
     nh_text_init(&rest);
     const char *how = "";
     bool follows = f->independence == NH_DEPENDENT;
-    bool rotations = f->has_symmetry && !f->series && nh_symmetry_words(result->model, &f->symmetry, &how, &what);
+    bool rotations =
+        f->has_symmetry && !f->series && nh_symmetry_words(result->question->model, &f->symmetry, &how, &what);
     name_it(result, f, rotations, &out);
     if (symmetry && !follows) out.how = how, out.what = nh_arena_strdup(result->arena, nh_text_string(&what));
     if (follows) nh_text_add(&rest, "Follows from the others. ");

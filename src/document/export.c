@@ -89,18 +89,18 @@ static void current_words(const nh_export *x, const nh_export_function *f, const
 {
     const nh_analysis *result = x->analysis;
     const nh_export_array *a = &f->result[0];
-    for (size_t i = 0, row = 0; i < result->count && row < a->rows; i++) {
-        const nh_current *c = &result->found[i];
+    for (size_t i = 0, row = 0; i < result->list->count && row < a->rows; i++) {
+        const nh_current *c = &result->list->found[i];
         if (strcmp(c->name, a->label[row])) continue;
         row++;
-        const char *holds = nh_facts_holds(result->model, &c->proof, true);
+        const char *holds = nh_facts_holds(result->question->model, &c->proof, true);
         nh_text_addf(out, "%s%s%s%s: ", before, c->name, *c->meaning ? ", " : "", c->meaning);
         if (c->proof.proved) nh_text_addf(out, "proved%s", holds);
         else nh_text_addf(out, "conserved to %.0f digits%s%s", c->proof.digits, nh_formula_doubt(c), holds);
         if (c->local) nh_text_add(out, "; many-valued on an angle");
         if (c->series)
             nh_text_addf(out, "; a series, for %g <= %s <= %g only", c->series->low,
-                         nh_name_of(result->model->dag, c->series->variable), c->series->high);
+                         nh_name_of(result->question->model->dag, c->series->variable), c->series->high);
         nh_text_add(out, "\n");
     }
 }

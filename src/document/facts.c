@@ -9,6 +9,8 @@
 #include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/fixed.h"
+#include "integrals/real_where.h"
+#include "document/formula.h"
 
 bool nh_facts_number(double value, int digits, nh_shown_number *out)
 {
@@ -51,20 +53,21 @@ static void ranks(nh_text *out, const char *before, size_t n, const size_t *rank
 
 void nh_facts_constraint(const nh_analysis *result, nh_text *out)
 {
+    nh_model *model = result->question->model;
     static const char *const spaces[] = {"growth vector ", "growth vector with time ",
                                          "growth vector on the submanifold "};
-    const nh_distribution *d = &result->constraint;
+    const nh_distribution *d = &result->question->constraint;
     const nh_growth *g = &d->growth;
     nh_text_addf(out, "%s%s constraint%s%s (%s", d->type == NH_NONLINEAR && d->homogeneous ? "homogeneous " : "",
-                 nh_constraint_type_name(d->type), result->model->k == 1 ? "" : "s",
-                 d->rheonomic ? ", time-dependent" : "", nh_constraint_integrability(result->model, d));
+                 nh_constraint_type_name(d->type), model->k == 1 ? "" : "s", d->rheonomic ? ", time-dependent" : "",
+                 nh_constraint_integrability(model, d));
     if (g->length > 1) {
         nh_text_add(out, "; ");
         ranks(out, spaces[g->space], g->length, g->rank);
         if (g->cut) nh_text_add(out, ",...");
     }
     if (g->drops) {
-        if (g->where) nh_text_addf(out, ", at %s = 0 ", nh_name_of(result->model->dag, g->where));
+        if (g->where) nh_text_addf(out, ", at %s = 0 ", nh_name_of(model->dag, g->where));
         ranks(out, g->where ? "" : ", at the origin ", g->length_there, g->rank_there);
     }
     nh_text_addf(out, ")%s", g->proved ? "" : g->by_numbers ? " (by numbers)" : " (modulo primes)");
@@ -182,26 +185,30 @@ void nh_facts_branch(const nh_analysis *result, nh_text *out)
 
 const char *nh_facts_which_branch(const nh_analysis *result, const nh_current *f)
 {
-    return !result->model->chart->branch ? ""
-           : f->on_both                  ? ", on both branches"
-                                         : nh_arena_printf(result->arena, ", on the branch %s only", result->branch);
+    return !result->question->model->chart->branch ? ""
+           : f->on_both                            ? ", on both branches"
+                        : nh_arena_printf(result->arena, ", on the branch %s only", result->branch);
 }
 
 /* ---- the answer ---- */
 
 const char *nh_facts_between_walls(const nh_analysis *result)
 {
+    const nh_current_list *list = result->list;
     const char *where = NULL;
     size_t n = nh_analysis_to_the_end(result);
-    for (size_t k = 0; k < result->pieces; k++)
-        if (result->piece[k].to_the_end && (!where || strcmp(where, result->piece[k].region) == 0))
-            where = result->piece[k].region;
-        else if (result->piece[k].to_the_end) where = "each in its region, where motions end";
+    for (size_t k = 0; k < list->pieces; k++)
+        if (list->piece[k].to_the_end && (!where || strcmp(where, list->piece[k].region) == 0))
+            where = list->piece[k].region;
+        else if (list->piece[k].to_the_end) where = "each in its region, where motions end";
     return nh_arena_printf(result->arena, "%zu independent current%s of at most %zu, %s", n, n == 1 ? "" : "s",
-                           result->local_maximum, where);
+                           result->question->local_maximum, where);
 }
 
-bool nh_facts_given(const nh_analysis *result) { return result->analysis && result->analysis->families > 0; }
+bool nh_facts_given(const nh_analysis *result)
+{
+    return result->question->analysis && result->question->analysis->families > 0;
+}
 
 const char *nh_facts_search(const nh_analysis *result)
 {
@@ -234,13 +241,14 @@ const char *nh_facts_search(const nh_analysis *result)
 
 void nh_facts_completeness(const nh_analysis *result, nh_text *out)
 {
+    const nh_current_list *list = result->list;
     const nh_completeness *first = &result->completeness[result->completeness[0].counted ? 0 : 1];
-    bool all = result->search == NH_SEARCH_COMPLETE && result->independent >= result->local_maximum;
+    bool all = result->search == NH_SEARCH_COMPLETE && list->independent >= result->question->local_maximum;
     size_t uncertain = 0;
     if (all && first->counted && first->count.obstacle) return; /* there are no more integrals that could be counted */
-    for (size_t k = 0; k < result->count; k++)
-        uncertain += result->found[k].independence == NH_INDEPENDENT &&
-                     (!result->found[k].proof.proved || result->found[k].series);
+    for (size_t k = 0; k < list->count; k++)
+        uncertain +=
+            list->found[k].independence == NH_INDEPENDENT && (!list->found[k].proof.proved || list->found[k].series);
     nh_completeness_words(result->completeness, uncertain, out);
 }
 
@@ -250,4 +258,36 @@ bool nh_facts_head(const char *head, double *value)
     if (*head != '#') return false;
     *value = strtod(head + 1, &rest);
     return rest > head + 1 && !*rest;
+}
+
+/* " with w^2 - W^2 != 0", ", real where k > 0" */
+static void put_where(const nh_analysis *r, const nh_current *f, nh_text *out)
+{
+    nh_model *model = r->question->model;
+    nh_ex found[NH_MOST_REAL_WHERE];
+    bool parameters = !f->series && (f->proof.all_parameters || f->proof.fixed);
+    size_t n = parameters ? nh_real_where_divisors(model, f->phi, found) : 0;
+    for (size_t i = 0; i < n; i++) {
+        nh_text_add(out, i ? " and " : " with ");
+        nh_print(model->dag, found[i], out);
+        nh_text_add(out, " != 0");
+    }
+    n = f->series ? 0 : nh_real_where(model, f->phi, found);
+    for (size_t i = 0; i < n; i++) {
+        nh_text_add(out, i ? " and " : ", real where ");
+        nh_print(model->dag, found[i], out);
+        nh_text_add(out, " > 0");
+    }
+}
+
+const char *nh_facts_proof(const nh_analysis *r, const nh_current *f)
+{
+    nh_text out;
+    nh_text_init(&out);
+    if (!f->proof.proved) nh_text_addf(&out, "Conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
+    nh_text_addf(&out, "%s%s", nh_facts_holds(r->question->model, &f->proof, true), nh_facts_which_branch(r, f));
+    put_where(r, f, &out);
+    const char *text = nh_arena_strdup(r->arena, nh_text_string(&out));
+    nh_text_clear(&out);
+    return text;
 }

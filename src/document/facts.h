@@ -61,6 +61,9 @@ const char *nh_facts_holds(const nh_model *model, const nh_proof *proof, bool na
 void nh_facts_put_holds(nh_json *item, const nh_model *model, const nh_proof *proof);
 void nh_facts_add_holds(nh_json *list, const nh_model *model, const nh_proof *proof);
 
+/* How sure it is: of a proved one " for all m, k" or "", after "proved"; of another one a sentence without its end. */
+const char *nh_facts_proof(const nh_analysis *result, const nh_current *found);
+
 /* Is the head of a column, which begins with # where the column holds numbers, a number itself: "#1e-8"? */
 bool nh_facts_head(const char *head, double *value);
 

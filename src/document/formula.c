@@ -26,7 +26,9 @@ nh_ex nh_formula_shortened(const nh_analysis_file *a, nh_dag *d, nh_ex e)
 
 nh_ex nh_formula_shown(const nh_analysis *result, nh_ex e)
 {
-    return nh_chart_shown(result->other && result->other->chart->roots ? result->other->chart : result->model->chart,
+    return nh_chart_shown(result->question->other && result->question->other->chart->roots
+                              ? result->question->other->chart
+                              : result->question->model->chart,
                           e);
 }
 
@@ -229,18 +231,19 @@ static void add_term(const nh_model *model, nh_field_term *list, size_t *n, nh_e
 
 size_t nh_formula_field(const nh_analysis *result, const nh_symmetry *z, nh_field_term **out)
 {
-    const nh_model *model = result->model, *basis = result->other ? result->other : model;
+    const nh_model *model = result->question->model, *basis = result->question->other ? result->question->other : model;
     const nh_field *f = z->along_motion ? &z->relative : &z->field;
     const nh_ex *rate = z->along_motion ? z->relative_rate : z->coordinate_rate;
     size_t n = 0;
     nh_field_term *list = *out = nh_arena_alloc(model->arena, (2 + model->m + basis->n) * sizeof *list);
     if (z->along_motion) add_term(model, list, &n, z->Z0, NULL);
     add_term(model, list, &n, f->time, "t");
-    for (size_t s = 0; s < model->m; s++) add_term(model, list, &n, f->space[s], result->system->coordinate[s].name);
+    for (size_t s = 0; s < model->m; s++)
+        add_term(model, list, &n, f->space[s], result->question->system->coordinate[s].name);
     for (size_t i = 0; i < basis->n; i++) {
-        nh_ex e = result->other ? 0 : f->velocity[i];
-        for (size_t s = 0; s < model->m && result->other; s++)
-            if (basis->chart->w[i] == result->system->coordinate[s].v) e = rate[s];
+        nh_ex e = result->question->other ? 0 : f->velocity[i];
+        for (size_t s = 0; s < model->m && result->question->other; s++)
+            if (basis->chart->w[i] == result->question->system->coordinate[s].v) e = rate[s];
         add_term(model, list, &n, e, nh_name_of(model->dag, basis->chart->w[i]));
     }
     return n;

@@ -228,12 +228,13 @@ void nh_live_js(nh_live *l, const nh_observables *t, size_t most, nh_text *out)
 
 nh_live *nh_live_of_analysis(const nh_analysis *result, const nh_observables *tracks)
 {
+    const nh_current_list *list = result->list;
     const nh_validation *v = result->validation;
     if (!v || v->count < 2) return NULL;
-    nh_dag *d = result->model->dag;
-    nh_live_quantity *quantity = nh_arena_alloc(result->arena, (result->count + 1) * sizeof *quantity);
-    for (size_t k = 0; k < result->count; k++) {
-        const nh_current *f = &result->found[k];
+    nh_dag *d = result->question->model->dag;
+    nh_live_quantity *quantity = nh_arena_alloc(result->arena, (list->count + 1) * sizeof *quantity);
+    for (size_t k = 0; k < list->count; k++) {
+        const nh_current *f = &list->found[k];
         bool minus = !strncmp(f->meaning, "minus", 5); /* as readers know it: E, not -E */
         nh_ex in_velocities = f->has_in_velocities ? f->in_velocities : 0;
         quantity[k] = (nh_live_quantity){.name = f->name,
@@ -243,12 +244,12 @@ nh_live *nh_live_of_analysis(const nh_analysis *result, const nh_observables *tr
                                          .all_parameters = f->proof.all_parameters,
                                          .fixed = f->proof.fixed};
     }
-    nh_live_request request = {.model = result->model,
+    nh_live_request request = {.model = result->question->model,
                                .tracks = tracks,
                                .first = v->watch,
                                .begin = v->time[0],
                                .end = v->time[v->count - 1],
-                               .quantities = result->count,
+                               .quantities = list->count,
                                .quantity = quantity};
     return nh_live_create(&request, nh_live_js_lacks);
 }
@@ -267,7 +268,7 @@ void nh_live_js_file(const nh_analysis *result, nh_text *out)
 {
     nh_live *live = nh_live_of_analysis(result, &result->tracks);
     nh_text_addf(out, "// %s.  Exported by nhsym " NH_VERSION ": a model and an integrator (docs/export.md).\n",
-                 result->system->title);
+                 result->question->system->title);
     nh_live_js(live, &result->tracks, SIZE_MAX, out);
     nh_text_add(out, nh_page_solver);
     nh_text_add(out, "if (typeof module === \"object\") module.exports = {model: nhsymModel, solve: nhsymSolve};\n");

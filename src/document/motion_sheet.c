@@ -12,7 +12,7 @@
 static const char *words_of(nh_sheet *s, const nh_analysis *result)
 {
     const nh_explicit_motion *m = result->motion;
-    const char *fixed = m->fixed ? nh_fixed_text(result->model, m->fixed) : "";
+    const char *fixed = m->fixed ? nh_fixed_text(result->question->model, m->fixed) : "";
     const char *rest = m->known < m->states ? " No closed form was found for the other states." : "";
     const char *where = m->region ? nh_arena_printf(result->arena, "while a motion stays in one region (%s)", m->region)
                                   : "along every motion";
@@ -96,13 +96,14 @@ static void series(nh_sheet *s, const nh_analysis *result)
 
 nh_sheet *nh_motion_sheet(const nh_analysis *result)
 {
+    nh_model *model = result->question->model;
     const nh_explicit_motion *m = result->motion;
     if (!m) return NULL;
-    nh_sheet *s = nh_sheet_create(result->arena, result->model->dag);
-    s->analysis = result->analysis;
-    s->chart = result->model->chart->roots ? result->model->chart : NULL;
-    s->shown = result->options.shown;
-    s->written = result->options.written;
+    nh_sheet *s = nh_sheet_create(result->arena, model->dag);
+    s->analysis = result->question->analysis;
+    s->chart = model->chart->roots ? model->chart : NULL;
+    s->shown = result->question->options.shown;
+    s->written = result->question->options.written;
     nh_sheet_begin(s, "states", "Explicit motion", words_of(s, result));
     for (size_t i = 0; i < m->states; i++)
         if (m->is_known[i] && i != m->parameter) nh_sheet_formula(s, name(s, m->state[i]), m->value[i]);
@@ -144,7 +145,7 @@ static void intervals_json(const nh_analysis *result, nh_json *to)
         for (size_t j = 0; j < v->integrals; j++) {
             const nh_motion_series_of_one *one = &v->link[i].integral[j];
             nh_json *of = nh_json_add_object(integrals);
-            nh_json_put_text(of, "name", nh_name_of(result->model->dag, one->symbol));
+            nh_json_put_text(of, "name", nh_name_of(result->question->model->dag, one->symbol));
             nh_json_put_numbers(of, "coefficients", NH_MOTION_SERIES_TERMS, one->coefficient, 1);
             nh_json_put_number(of, "bound", one->bound);
         }
@@ -159,10 +160,10 @@ void nh_motion_sheet_json(const nh_analysis *result, nh_json *to)
         return;
     }
     nh_json *item = nh_json_put_object(to, "explicit_motion");
-    nh_json_put_text(item, "parameter", nh_name_of(result->model->dag, m->state[m->parameter]));
+    nh_json_put_text(item, "parameter", nh_name_of(result->question->model->dag, m->state[m->parameter]));
     nh_json_put_bool(item, "complete", m->known == m->states);
     nh_json_put_bool(item, "proved", m->proved);
-    nh_json_put_text(item, "fixed", m->fixed ? nh_fixed_text(result->model, m->fixed) : NULL);
+    nh_json_put_text(item, "fixed", m->fixed ? nh_fixed_text(result->question->model, m->fixed) : NULL);
     nh_json_put_text(item, "region", m->region);
     intervals_json(result, item);
     nh_sheet_json(nh_motion_sheet(result), item);

@@ -76,13 +76,14 @@ static void written(nh_pen *p, const nh_system *system)
 /* The functions that the constraints alone keep constant. */
 static void integrals(nh_pen *p, const nh_analysis *result)
 {
-    size_t hidden = result->constraint.hidden, left = hidden - result->integrals;
+    size_t hidden = result->question->constraint.hidden, left = hidden - result->integrals;
     if (!hidden) return;
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    nh_pen_say(p, "%zu %s%s: ", hidden, result->constraint.holonomic ? "integral" : "hidden holonomic constraint",
+    nh_pen_say(p, "%zu %s%s: ", hidden,
+               result->question->constraint.holonomic ? "integral" : "hidden holonomic constraint",
                hidden == 1 ? "" : "s");
     for (size_t i = 0; i < result->integrals; i++) {
-        const nh_current *f = &result->found[result->integral[i]];
+        const nh_current *f = &result->list->found[result->integral[i]];
         nh_pen_say(p, "%s", i ? ", " : "");
         nh_pen_say(p, "<%s> = const%s", f->name, f->local ? " (local)" : "");
     }
@@ -93,17 +94,18 @@ static void integrals(nh_pen *p, const nh_analysis *result)
 
 static void kind(nh_pen *p, const nh_analysis *result)
 {
+    nh_model *model = result->question->model;
     nh_text words;
     nh_text_init(&words);
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    nh_pen_say(p, "%zu coordinate%s, ", result->model->m, result->model->m == 1 ? "" : "s");
-    if (result->model->k) {
+    nh_pen_say(p, "%zu coordinate%s, ", model->m, model->m == 1 ? "" : "s");
+    if (model->k) {
         nh_facts_constraint(result, &words);
-        nh_pen_say(p, "%zu %s", result->model->k, nh_text_string(&words));
+        nh_pen_say(p, "%zu %s", model->k, nh_text_string(&words));
     } else {
         nh_pen_say(p, "no constraints");
     }
-    nh_pen_say(p, ". Constraint submanifold of dimension %zu.", 1 + result->model->m + result->model->n);
+    nh_pen_say(p, ". Constraint submanifold of dimension %zu.", 1 + model->m + model->n);
     nh_text_clear(&words);
     nh_facts_branch(result, &words);
     if (words.length) nh_pen_say(p, " Everything was %s.", nh_text_string(&words));
@@ -199,15 +201,16 @@ void nh_pen_system(nh_pen *p, const nh_model *model, const nh_analysis *result)
     if (result) kind(p, result);
     equations(p, model, true);
     enum { most_again = 4000 };
-    if (!result || !result->other) return;
-    double again = length_of(result->other);
+    if (!result || !result->question->other) return;
+    double again = length_of(result->question->other);
     if (again > most_again && !p->style.verbose) {
         nh_pen_words(p, "In {%s} the equations have %zu symbols: --velocities %s shows them.",
-                     result->other->chart->name, (size_t)again, result->other->chart->quasi ? "quasi" : "coordinates");
+                     result->question->other->chart->name, (size_t)again,
+                     result->question->other->chart->quasi ? "quasi" : "coordinates");
         return;
     }
     nh_pen_open(p, NH_PEN_FOLD, NULL, "In the other velocities");
-    equations(p, result->other, !brief);
+    equations(p, result->question->other, !brief);
     nh_pen_close(p, NH_PEN_FOLD);
 }
 

@@ -22,9 +22,9 @@ static nh_time_series *make(const nh_model *model, const nh_observables *t, size
 nh_time_series *nh_time_series_of_analysis(const nh_analysis *result)
 {
     const nh_validation *v = result->validation;
-    size_t k = result->model->k;
+    size_t k = result->question->model->k;
     if (!v || !v->count) return NULL;
-    nh_time_series *c = make(result->model, &result->tracks, v->count, v->time, v->watch, v->watches);
+    nh_time_series *c = make(result->question->model, &result->tracks, v->count, v->time, v->watch, v->watches);
     c->drifts_elsewhere = true;
     char *name = (char *)(c->line + result->tracks.count + k + 1);
     for (size_t a = 0; a < k; a++, name += longest_name) {

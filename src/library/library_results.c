@@ -22,16 +22,16 @@ const char *nh_analysis_verdict(const nh_analysis *a)
 
 const char *nh_analysis_search(const nh_analysis *a) { return nh_search_word(a->search); }
 
-size_t nh_analysis_currents(const nh_analysis *a) { return a->count; }
+size_t nh_analysis_currents(const nh_analysis *a) { return a->list->count; }
 
-size_t nh_analysis_independent(const nh_analysis *a) { return a->independent; }
+size_t nh_analysis_independent(const nh_analysis *a) { return a->list->independent; }
 
-size_t nh_analysis_most(const nh_analysis *a) { return a->local_maximum; }
+size_t nh_analysis_most(const nh_analysis *a) { return a->question->local_maximum; }
 
 nh_current_facts nh_current_describe(const nh_analysis *a, size_t index)
 {
-    if (index >= a->count) return (nh_current_facts){.name = "", .meaning = "", .digits = NAN, .drift = NAN};
-    const nh_current *c = &a->found[index];
+    if (index >= a->list->count) return (nh_current_facts){.name = "", .meaning = "", .digits = NAN, .drift = NAN};
+    const nh_current *c = &a->list->found[index];
     bool followed = a->validation != NULL;
     return (nh_current_facts){.name = c->name,
                               .meaning = c->meaning,
@@ -80,7 +80,8 @@ static void typeset_current(void *argument)
 {
     setting *s = argument;
     const nh_analysis *a = s->analysis;
-    s->out = nh_print_short(a->model->dag, shown_form(&a->found[s->index]), a->options.written);
+    s->out =
+        nh_print_short(a->question->model->dag, shown_form(&a->list->found[s->index]), a->question->options.written);
     if (!s->out || s->syntax == NH_SYNTAX_PLAIN) return;
     char *plain = s->out;
     s->out = typeset(plain, s->syntax);
@@ -90,23 +91,25 @@ static void typeset_current(void *argument)
 char *nh_current_formula(const nh_analysis *a, size_t index, nh_syntax syntax)
 {
     setting s = {.analysis = a, .index = index, .syntax = syntax};
-    return index < a->count && nh_library_run(typeset_current, &s) ? s.out : NULL;
+    return index < a->list->count && nh_library_run(typeset_current, &s) ? s.out : NULL;
 }
 
 /* Of t, positions and velocities; NULL where the current cannot be written in velocities. */
 static nh_tape *tape_of(const nh_analysis *a, size_t index)
 {
-    if (index >= a->count || !a->found[index].has_in_velocities) return NULL;
-    const nh_system *system = a->system;
+    nh_model *model = a->question->model;
+    const nh_current_list *list = a->list;
+    if (index >= list->count || !list->found[index].has_in_velocities) return NULL;
+    const nh_system *system = a->question->system;
     size_t m = system->coordinates;
-    nh_ex form = a->found[index].in_velocities, *in = nh_alloc_array(2 * m + 1, sizeof *in);
+    nh_ex form = list->found[index].in_velocities, *in = nh_alloc_array(2 * m + 1, sizeof *in);
     in[0] = system->t;
     for (size_t i = 0; i < m; i++) {
         in[1 + i] = system->coordinate[i].q;
         in[1 + m + i] = system->coordinate[i].v;
     }
-    nh_tape *tape = nh_tape_create(a->model->dag, 2 * m + 1, in, 1, &form, system->parameters, a->model->parameter,
-                                   a->model->parameter_value);
+    nh_tape *tape = nh_tape_create(model->dag, 2 * m + 1, in, 1, &form, system->parameters, model->parameter,
+                                   model->parameter_value);
     nh_free(in);
     return tape;
 }
@@ -125,7 +128,7 @@ static void evaluate(void *argument)
     nh_tape *tape = tape_of(e->analysis, e->index);
     if (!tape) return;
     nh_columns columns;
-    nh_columns_open(&columns, e->analysis->system->coordinates, e->count, e->t, e->q, e->v);
+    nh_columns_open(&columns, e->analysis->question->system->coordinates, e->count, e->t, e->q, e->v);
     nh_tape_work *work = nh_tape_work_create(tape);
     for (size_t from = 0, n; (n = nh_columns_next(&columns, from)) > 0; from += n) {
         double *to = e->out + from;

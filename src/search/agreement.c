@@ -13,7 +13,7 @@ void nh_agreement_keep(nh_analysis *result, size_t families, const nh_family *fa
 {
     nh_sampled_space *x = nh_arena_alloc(result->arena, sizeof *x);
     bool timely = false;
-    double degree = nh_counted_degree(result->model, families, family, &timely);
+    double degree = nh_counted_degree(result->question->model, families, family, &timely);
     if (degree < 1 || degree > NH_COUNT_HIGHEST_DEGREE) return;
     *x = (nh_sampled_space){
         .degree = (size_t)degree, .timely = timely, .columns = a->columns, .dimension = s->dimension};
@@ -28,7 +28,7 @@ void nh_agreement_keep(nh_analysis *result, size_t families, const nh_family *fa
 static size_t list_products(const nh_analysis *result, size_t n, const nh_ex *phi, const size_t *degree, size_t highest,
                             size_t most, nh_ex *out)
 {
-    nh_dag *d = result->model->dag;
+    nh_dag *d = result->question->model->dag;
     size_t count = 0, *sum = nh_alloc_array(most + 1, sizeof *sum);
     out[count++] = nh_int(d, 1);
     for (size_t k = 0; k < n && count; k++)
@@ -59,6 +59,7 @@ static const nh_completeness *complete_to(const nh_analysis *result, const nh_sa
 
 void nh_agreement_find(nh_analysis *result)
 {
+    nh_model *model = result->question->model;
     enum { most = 400, spare = 64 };
     const nh_sampled_space *x = result->sampled;
     const nh_completeness *c = x && x->dimension ? complete_to(result, x) : NULL;
@@ -66,32 +67,32 @@ void nh_agreement_find(nh_analysis *result)
     nh_error ignored;
     nh_error_clear(&ignored);
     bool general;
-    size_t independent, room = result->count + result->furthers + 1, *degree = nh_alloc_array(room, sizeof *degree);
+    size_t independent, room = result->list->count + result->list->furthers + 1,
+                        *degree = nh_alloc_array(room, sizeof *degree);
     nh_ex *phi = nh_alloc_array(room, sizeof *phi), *product = nh_alloc_array(most + 1, sizeof *product);
     size_t n = nh_counted_proved(result, phi, &general, &independent), kept = 0;
     for (size_t k = 0; k < n; k++) {
         bool timely = false;
-        double own =
-            nh_counted_degree(result->model, 1, &(nh_family){.kind = NH_TERMS, .terms = 1, .term = &phi[k]}, &timely);
+        double own = nh_counted_degree(model, 1, &(nh_family){.kind = NH_TERMS, .terms = 1, .term = &phi[k]}, &timely);
         if (own < 1 || own > (double)x->degree || (timely && !c->count.time)) continue;
         phi[kept] = phi[k];
         degree[kept++] = (size_t)own;
     }
     size_t products = list_products(result, kept, phi, degree, x->degree, most, product);
-    nh_points *p = products ? nh_points_create(result->model, 2 * products + spare, 1,
-                                               (uint64_t)result->options.seed + 7, &ignored)
+    nh_points *p = products ? nh_points_create(model, 2 * products + spare, 1,
+                                               (uint64_t)result->question->options.seed + 7, &ignored)
                             : NULL;
     if (p) {
         double *one = nh_alloc_array(products * products, sizeof *one);
         for (size_t i = 0; i < products; i++) one[i * products + i] = 1;
-        double *all = nh_span_values(result->model, p, products, product, products, one),
-               *sampled = nh_span_values(result->model, p, x->columns, x->column, x->dimension, x->vector);
+        double *all = nh_span_values(model, p, products, product, products, one),
+               *sampled = nh_span_values(model, p, x->columns, x->column, x->dimension, x->vector);
         result->counted_space =
             (nh_counted_space){.compared = true,
                                .degree = x->degree,
                                .products = products,
                                .angle = nh_span_distance(p->count, products, all, x->dimension, sampled)};
-        result->counted_space.agrees = result->counted_space.angle <= result->options.agreement;
+        result->counted_space.agrees = result->counted_space.angle <= result->question->options.agreement;
         if (!result->counted_space.agrees)
             nh_analysis_warn(
                 result,

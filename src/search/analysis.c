@@ -63,7 +63,7 @@ const char *nh_limit_words(nh_arena *arena, const nh_limit *limit)
 size_t nh_analysis_to_the_end(const nh_analysis *result)
 {
     size_t n = 0;
-    for (size_t k = 0; k < result->pieces; k++) n += result->piece[k].to_the_end;
+    for (size_t k = 0; k < result->list->pieces; k++) n += result->list->piece[k].to_the_end;
     return n;
 }
 
@@ -94,9 +94,9 @@ void nh_analysis_free(nh_analysis *result)
     nh_validation_free(result->validation);
     nh_count_memory_free(result->counted);
     nh_hits_free(result->hits);
-    nh_model_free(result->other);
-    nh_model_free(result->model);
-    nh_analysis_file_free(result->analysis);
-    nh_system_free(result->system);
+    nh_model_free(result->question->other);
+    nh_model_free(result->question->model);
+    nh_analysis_file_free(result->question->analysis);
+    nh_system_free(result->question->system);
     nh_arena_free(result->arena);
 }

@@ -171,27 +171,52 @@ typedef struct {
     nh_figure_curve *curve;
 } nh_figure;
 
-struct nh_analysis {
-    nh_arena *arena;
+/* What is asked.  Written by the command before the search begins, and constant from then on. */
+typedef struct {
     /* the command that repeats the analysis; command and analysis_path may be NULL */
     const char *command, *system_path, *analysis_path;
     const char *system_words; /* how a command line names the system; NULL: by its path */
     nh_system *system;
     nh_analysis_file *analysis; /* NULL: chosen by the program */
-    struct nh_theory *theory;   /* where it was requested; else NULL */
     nh_model *model, *other;    /* other: the coordinate chart beside a quasi one, or NULL */
     nh_distribution constraint; /* the kind of constraint */
-    /* of a quadratic constraint: "z' < 0", the branch of the computation, and "z' > 0"; NULL: there are no branches */
-    const char *branch, *other_branch;
-    bool equations_on_both; /* as printed, the equations hold on the other branch too */
     nh_options options;
     double pace; /* Omega of problem/time_scale.h where the system was found fast (or long), else 0 */
     nh_route route;
+    size_t local_maximum; /* as many integrals as there are near a regular point: 2 m - k */
+    uint64_t left_out;    /* rows of the search (staged_search.h) that a developer leaves out, bit i for row i */
+    bool derived;         /* it is of a system that the search made from the user's (search/other_system.h) */
+} nh_analysis_question;
+
+/* The integrals, each of them checked.  Only search/current_list.h changes which there are. */
+typedef struct {
+    size_t count, capacity, independent;
+    const nh_current *found;
+    /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
+    size_t pieces;
+    const nh_current *piece;
+    /* polynomial in the velocities, and functions of the currents found: not counted.  The products of the currents
+     * that the count uses do not give them.  At most NH_MOST_FURTHER */
+    size_t furthers;
+    const nh_further_integral *further;
+} nh_current_list;
+
+/* The question, the integrals, and a report of how they were found and what else is known of the system. */
+struct nh_analysis {
+    nh_arena *arena;
+    const nh_analysis_question *question;
+    const nh_current_list *list;
+    /* ---- the report ---- */
+    struct nh_theory *theory; /* where it was requested; else NULL */
+    /* of a quadratic constraint: "z' < 0", the branch of the computation, and "z' > 0"; NULL: there are no branches */
+    const char *branch, *other_branch;
+    bool equations_on_both;  /* as printed, the equations hold on the other branch too */
     const char *ansatz_note; /* description of what was tried */
     /* beyond: points where the chart's pivot is near zero, from the multiplier form */
     size_t samples, beyond, rejected;
     size_t stages, stage_capacity;
     nh_stage_record *stage; /* of the staged search; empty with an analysis file */
+    uint64_t used;          /* rows of the search that found something, bit i for row i */
     nh_spectrum current, symmetry;
     bool routes_compared, routes_agree;
     double routes_angle;
@@ -200,20 +225,9 @@ struct nh_analysis {
     nh_hits *hits;
     size_t specials;
     nh_special *special;
-    size_t count, capacity, independent, local_maximum;
-    /* rows of the search (staged_search.h), bit i for row i: left out by a developer; those that found something */
-    uint64_t left_out, used;
     size_t open;        /* null vectors that may be true, but have no certificate */
     const char *letter; /* first letters of the names of currents, as Phi in Phi1; see nh_currents_name */
-    nh_current *found;
-    /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
-    size_t pieces;
-    nh_current *piece;
-    /* polynomial in the velocities, and functions of the currents found: not counted.  The products of the currents
-     * that the count uses do not give them.  At most NH_MOST_FURTHER */
-    size_t furthers;
-    nh_further_integral *further;
-    size_t relations; /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
+    size_t relations;   /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
     nh_further_relation *relation;
     size_t stateds; /* of the system file, in its order */
     nh_stated *stated;
@@ -222,7 +236,7 @@ struct nh_analysis {
     const struct nh_explicit_motion *motion; /* as formulas (search/explicit_motion.h); NULL: none is known */
     /* independent functions of (t, q) that the constraints hold constant, found; not those given between positions */
     size_t integrals;
-    size_t *integral; /* found[integral[i]] */
+    size_t *integral; /* list->found[integral[i]] */
     nh_completeness completeness[NH_COMPLETENESS_KINDS];
     nh_count_memory *counted; /* while the search goes on */
     nh_verdict verdict;
@@ -236,7 +250,6 @@ struct nh_analysis {
     /* the last words of the warning that the energy is not conserved; NULL: none, or they are long */
     const char *energy_rate;
     bool partial; /* the limit of work or time, or the user, ended the search */
-    bool derived; /* of a system that the search made from the user's (search/other_system.h) */
     nh_timing timing;
 };
 

@@ -2,6 +2,7 @@
 
 #include "exact/normal.h"
 #include "graph/dag.h"
+#include "search/current_list.h"
 
 nh_model *nh_branch_other(const nh_model *model, const nh_options *options)
 {
@@ -70,19 +71,26 @@ static bool field_agrees(const nh_model *model, const nh_model *other, const nh_
 
 static bool on_both(const nh_analysis *result, const nh_model *other, const nh_points *points, const nh_current *f)
 {
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     nh_ex phi = nh_chart_composed(model->chart, nh_chart_shown(model->chart, f->phi), other->chart);
-    if (f->series || !nh_branch_conserves(other, phi, &f->proof, &result->options)) return false;
+    if (f->series || !nh_branch_conserves(other, phi, &f->proof, &result->question->options)) return false;
     return !f->has_symmetry ||
-           (points && field_agrees(model, other, points, &f->symmetry, phi, result->options.heldout));
+           (points && field_agrees(model, other, points, &f->symmetry, phi, result->question->options.heldout));
+}
+
+static void compare(nh_analysis *result, const nh_model *other, const nh_points *points, const nh_current *f)
+{
+    nh_current_list_describe(result, f)->on_both = on_both(result, other, points, f);
 }
 
 void nh_branch_compare(nh_analysis *result)
 {
+    const nh_current_list *list = result->list;
     enum { generic_points = 24 };
-    const nh_model *model = result->model->chart->branch                    ? result->model
-                            : result->other && result->other->chart->branch ? result->other
-                                                                            : NULL;
+    const nh_model *model = result->question->model->chart->branch ? result->question->model
+                            : result->question->other && result->question->other->chart->branch
+                                ? result->question->other
+                                : NULL;
     if (!model) return;
     char *here = nh_chart_branch_name(model->chart, model->chart->branch),
          *there = nh_chart_branch_name(model->chart, -model->chart->branch);
@@ -90,17 +98,16 @@ void nh_branch_compare(nh_analysis *result)
     nh_error_clear(&ignored);
     result->branch = nh_arena_strdup(result->arena, here);
     result->other_branch = nh_arena_strdup(result->arena, there);
-    nh_model *other = nh_branch_other(model, &result->options);
+    nh_model *other = nh_branch_other(model, &result->question->options);
     /* (t, q, w): of either branch */
     nh_points *points =
-        other ? nh_points_create(model, generic_points, 1, (uint64_t)result->options.seed + 202, &ignored) : NULL;
+        other ? nh_points_create(model, generic_points, 1, (uint64_t)result->question->options.seed + 202, &ignored)
+              : NULL;
     result->equations_on_both = other && equations_agree(model, other);
-    for (size_t k = 0; k < result->count && other && model == result->model; k++)
-        result->found[k].on_both = on_both(result, other, points, &result->found[k]);
-    for (size_t k = 0; k < result->pieces && other && model == result->model; k++)
-        result->piece[k].on_both = on_both(result, other, points, &result->piece[k]);
-    for (size_t k = 0; k < result->furthers && other && model == result->model; k++)
-        result->further[k].current.on_both = on_both(result, other, points, &result->further[k].current);
+    bool same = other && model == result->question->model;
+    for (size_t k = 0; same && k < list->count; k++) compare(result, other, points, &list->found[k]);
+    for (size_t k = 0; same && k < list->pieces; k++) compare(result, other, points, &list->piece[k]);
+    for (size_t k = 0; same && k < list->furthers; k++) compare(result, other, points, &list->further[k].current);
     nh_points_free(points);
     nh_model_free(other);
     nh_free(here);

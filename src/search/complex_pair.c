@@ -36,8 +36,8 @@ static bool root_of(const nh_model *model, number D, number *out)
 /* The two currents with exp(-lambda t), `other` the other root. */
 static size_t currents(nh_stage_solver *solver, const nh_ex q[2], const nh_ex v[2], number lambda, number other)
 {
-    nh_dag *d = solver->r->model->dag;
-    nh_ex t = solver->r->system->t, angle = nh_mul(d, lambda.im, t);
+    nh_dag *d = solver->r->question->model->dag;
+    nh_ex t = solver->r->question->system->t, angle = nh_mul(d, lambda.im, t);
     nh_ex decay = nh_call(d, NH_EXP, nh_neg(d, nh_mul(d, lambda.re, t)));
     nh_ex cosine = nh_mul(d, decay, nh_call(d, NH_COS, angle)), sine = nh_mul(d, decay, nh_call(d, NH_SIN, angle));
     nh_ex u[] = {nh_add(d, nh_sub(d, v[0], nh_mul(d, other.re, q[0])), nh_mul(d, other.im, q[1])),
@@ -52,7 +52,7 @@ static size_t currents(nh_stage_solver *solver, const nh_ex q[2], const nh_ex v[
 
 size_t nh_complex_pair_search(nh_stage_solver *solver, const nh_complex_pair *pair)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_dag *d = model->dag;
     number C, K, root;
     if (!as_number(d, pair->C, &C) || !as_number(d, pair->K, &K)) return 0;

@@ -6,6 +6,7 @@
 #include "graph/function.h"
 #include "graph/node.h"
 #include "integrals/force_potential.h"
+#include "search/current_list.h"
 
 enum { generic_count = 24, own_seed = 505 };
 
@@ -20,40 +21,42 @@ static bool only_events(const nh_model *model, nh_ex e)
    current, or r->count. */
 static size_t gather(const nh_analysis *result, nh_ex *phi, size_t *current)
 {
-    const nh_system *system = result->system;
+    const nh_current_list *list = result->list;
+    const nh_system *system = result->question->system;
     size_t n = 0;
     for (size_t a = 0; a < system->constraints; a++)
-        if (system->constraint[a].position) phi[n] = system->constraint[a].level, current[n++] = result->count;
-    for (size_t k = 0; k < result->count; k++)
-        if (only_events(result->model, result->found[k].phi)) phi[n] = result->found[k].phi, current[n++] = k;
+        if (system->constraint[a].position) phi[n] = system->constraint[a].level, current[n++] = list->count;
+    for (size_t k = 0; k < list->count; k++)
+        if (only_events(result->question->model, list->found[k].phi)) phi[n] = list->found[k].phi, current[n++] = k;
     return n;
 }
 
 void nh_integrals_of_constraints(nh_analysis *result)
 {
-    size_t most = result->count + result->system->constraints + 1;
+    const nh_options *options = &result->question->options;
+    const nh_current_list *list = result->list;
+    size_t most = list->count + result->question->system->constraints + 1;
     nh_ex *phi = nh_alloc_array(most, sizeof *phi);
     size_t *current = nh_alloc_array(most, sizeof *current),
-           n = result->system->constraints ? gather(result, phi, current) : 0;
+           n = result->question->system->constraints ? gather(result, phi, current) : 0;
     nh_independence *kind = nh_alloc_array(most, sizeof *kind);
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_points *points =
-        n ? nh_points_create(result->model, generic_count, 1, (uint64_t)result->options.seed + own_seed, &ignored)
+        n ? nh_points_create(result->question->model, generic_count, 1, (uint64_t)options->seed + own_seed, &ignored)
           : NULL;
     result->integral = nh_arena_alloc(result->arena, most * sizeof *result->integral);
     if (points)
-        nh_independence_test(result->model, points, n, phi, NULL, result->options.sure, result->options.doubt, kind,
-                             NULL);
+        nh_independence_test(result->question->model, points, n, phi, NULL, options->sure, options->doubt, kind, NULL);
     for (size_t i = 0; i < n && points; i++) {
-        if (current[i] == result->count) continue;
-        nh_current *f = &result->found[current[i]];
-        bool fresh = kind[i] == NH_INDEPENDENT && result->integrals < result->constraint.hidden;
+        if (current[i] == list->count) continue;
+        nh_current *f = nh_current_list_describe(result, &list->found[current[i]]);
+        bool fresh = kind[i] == NH_INDEPENDENT && result->integrals < result->question->constraint.hidden;
         if (fresh) result->integral[result->integrals++] = current[i];
         if (!f->meaning[0])
-            f->meaning = fresh                          ? "integral of the constraints"
-                         : result->constraint.positions ? "the constraints between positions"
-                                                        : "";
+            f->meaning = fresh                                    ? "integral of the constraints"
+                         : result->question->constraint.positions ? "the constraints between positions"
+                                                                  : "";
     }
     nh_points_free(points);
     nh_free(kind);
@@ -114,10 +117,10 @@ static bool read_form(const nh_model *model, nh_ex f, nh_ex *form, nh_ex *rate)
 /* F with form + rate dt = dF, or 0. */
 static nh_ex potential(const nh_stage_solver *solver, const nh_ex *form, nh_ex rate)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_dag *d = model->dag;
     nh_ex t = model->system->t, G = nh_int(d, 0),
-          F = nh_force_potential_of(model, solver->ranges, (size_t)solver->r->options.proof_terms, form);
+          F = nh_force_potential_of(model, solver->ranges, (size_t)solver->r->question->options.proof_terms, form);
     if (!F) return 0;
     nh_ex rest = nh_simplify_short(d, nh_sub(d, rate, nh_diff(d, F, t)), 0);
     for (size_t s = 0; s < model->m; s++)
@@ -129,7 +132,7 @@ static nh_ex potential(const nh_stage_solver *solver, const nh_ex *form, nh_ex r
  * sin(phi - t) leaves theta + cos(phi - t) constant. */
 static void potentials(const nh_stage_solver *solver, alphabet *a)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_dag *d = model->dag;
     nh_ex *form = nh_alloc_array(2 * model->m, sizeof *form), *solved = form + model->m, rate;
     for (size_t k = 0; k < model->system->constraints; k++) {
@@ -150,7 +153,7 @@ static void potentials(const nh_stage_solver *solver, alphabet *a)
 
 static void letters(const nh_stage_solver *solver, alphabet *a)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_dictionary w = solver->words;
     for (size_t j = 0; j <= model->m && a->events < most_functions; j++)
         a->event[a->events++] = model->chart->symbol[j];
@@ -185,11 +188,12 @@ void nh_integrals_find(nh_stage_solver *solver)
     static const char *const names[own_stages] = {"functions of time and positions: quadratic, and the system's own",
                                                   "the same, cubic, and times positions",
                                                   "the same of degree four, and squares of the system's own"};
-    size_t before = solver->r->independent;
+    size_t before = solver->r->list->independent;
     alphabet *a = nh_alloc(sizeof *a);
     letters(solver, a);
-    for (size_t i = 0; i < own_stages && solver->r->independent < before + solver->r->constraint.integrals &&
-                       !nh_stage_solver_done(solver);
+    for (size_t i = 0;
+         i < own_stages && solver->r->list->independent < before + solver->r->question->constraint.integrals &&
+         !nh_stage_solver_done(solver);
          i++) {
         nh_family part[3], family[2];
         size_t families = families_of(a, i, part, family);

@@ -83,30 +83,32 @@ double nh_counted_degree(const nh_model *model, size_t families, const nh_family
 
 size_t nh_counted_proved(const nh_analysis *result, nh_ex *phi, bool *general, size_t *independent)
 {
+    const nh_current_list *list = result->list;
     size_t n = 0;
     *general = true;
     *independent = 0;
-    for (size_t k = 0; k < result->furthers; k++) {
-        phi[n++] = result->further[k].current.phi;
-        *general &= result->further[k].current.proof.all_parameters;
+    for (size_t k = 0; k < list->furthers; k++) {
+        phi[n++] = list->further[k].current.phi;
+        *general &= list->further[k].current.proof.all_parameters;
     }
-    for (size_t k = 0; k < result->count; k++) {
-        if (!result->found[k].proof.proved || result->found[k].series) continue;
-        phi[n++] = result->found[k].phi;
-        *general &= result->found[k].proof.all_parameters;
-        *independent += result->found[k].independence == NH_INDEPENDENT;
+    for (size_t k = 0; k < list->count; k++) {
+        if (!list->found[k].proof.proved || list->found[k].series) continue;
+        phi[n++] = list->found[k].phi;
+        *general &= list->found[k].proof.all_parameters;
+        *independent += list->found[k].independence == NH_INDEPENDENT;
     }
     return n;
 }
 
 size_t nh_counted_regional(const nh_analysis *result, nh_ex *phi, bool *general)
 {
+    const nh_current_list *list = result->list;
     size_t n = 0;
     *general = true;
-    for (size_t k = 0; k < result->pieces; k++) {
-        if (!result->piece[k].proof.proved || result->piece[k].series || !result->piece[k].counted) continue;
-        phi[n++] = result->piece[k].phi;
-        *general &= result->piece[k].proof.all_parameters;
+    for (size_t k = 0; k < list->pieces; k++) {
+        if (!list->piece[k].proof.proved || list->piece[k].series || !list->piece[k].counted) continue;
+        phi[n++] = list->piece[k].phi;
+        *general &= list->piece[k].proof.all_parameters;
     }
     return n;
 }
@@ -127,17 +129,17 @@ static news look_for_news(nh_counted *x, size_t degree, size_t kind)
 {
     nh_analysis *r = x->r;
     bool general;
-    if (nh_counted_has_walls(r->model)) return UNKNOWN;
-    nh_ex *phi = nh_alloc_array(r->count + r->furthers + 1, sizeof *phi);
+    if (nh_counted_has_walls(r->question->model)) return UNKNOWN;
+    nh_ex *phi = nh_alloc_array(r->list->count + r->list->furthers + 1, sizeof *phi);
     nh_count_question q = {.time = kind == NH_COMPLETE_IN_TIME,
                            .alone = true,
                            .degree = degree,
-                           .work = r->options.count_work,
+                           .work = r->question->options.count_work,
                            .memory = r->counted,
-                           .threads = nh_threads(r->options.threads),
+                           .threads = nh_threads(r->question->options.threads),
                            .current = phi};
     q.known = nh_counted_proved(r, phi, &general, &q.independent);
-    nh_count c = nh_count_integrals(r->model, &q);
+    nh_count c = nh_count_integrals(r->question->model, &q);
     nh_free(phi);
     if (c.obstacle || !c.rows || c.leaf || c.time != q.time) return UNKNOWN;
     return c.row[0].functions ? NOTHING : SOMETHING;
@@ -147,29 +149,30 @@ static news look_for_news(nh_counted *x, size_t degree, size_t kind)
 static bool is_cheap(const nh_analysis *result)
 {
     enum { few_coordinates = 5 };
-    return result->counted && result->model->m <= few_coordinates;
+    return result->counted && result->question->model->m <= few_coordinates;
 }
 
 bool nh_counted_covers(nh_counted *x, size_t degree, bool timely)
 {
     const nh_analysis *r = x->r;
     size_t kind = timely ? NH_COMPLETE_IN_TIME : NH_COMPLETE_IN_COORDINATES;
-    if (!x->on || !is_cheap(r) || degree < 1 || degree > nh_completeness_degree(r->model, timely)) return false;
+    if (!x->on || !is_cheap(r) || degree < 1 || degree > nh_completeness_degree(r->question->model, timely))
+        return false;
     for (size_t k = kind; k < NH_COMPLETENESS_KINDS; k++)
         if (degree <= x->covered[k]) return true;
-    if ((x->open[kind] && degree >= x->open[kind] && x->open_at[kind] == r->independent) ||
+    if ((x->open[kind] && degree >= x->open[kind] && x->open_at[kind] == r->list->independent) ||
         (x->beyond[kind] && degree >= x->beyond[kind]))
         return false;
     news found = nh_late() ? UNKNOWN : look_for_news(x, degree, kind);
     if (found == NOTHING) x->covered[kind] = degree;
     if (found == UNKNOWN) x->beyond[kind] = degree;
-    if (found == SOMETHING) x->open[kind] = degree, x->open_at[kind] = r->independent;
+    if (found == SOMETHING) x->open[kind] = degree, x->open_at[kind] = r->list->independent;
     return found == NOTHING;
 }
 
 bool nh_counted_superfluous(nh_counted *x, size_t families, const nh_family *family, bool timely)
 {
     if (!x->on || !is_cheap(x->r)) return false;
-    double degree = nh_counted_degree(x->r->model, families, family, &timely);
+    double degree = nh_counted_degree(x->r->question->model, families, family, &timely);
     return degree <= NH_COUNT_HIGHEST_DEGREE && nh_counted_covers(x, degree < 1 ? 1 : (size_t)degree, timely);
 }

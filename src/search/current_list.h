@@ -1,13 +1,17 @@
 /* current_list: the integrals that an analysis has found.
  *
- * Only this file changes which integrals there are, their order and their number (found, count, independent; piece,
- * pieces; further, furthers of nh_analysis).  The checker (currents.h) alone appends; whatever it appends was checked.
- * Later steps describe an integral that is in the list: its name, relation, symmetry, drift. */
+ * The list is constant for the compiler everywhere else: only this file changes which integrals there are, their order
+ * and their number.  The checker (currents.h) alone appends; whatever it appends was checked.  Later steps describe an
+ * integral that is in the list: its name, relation, symmetry, drift. */
 #ifndef NH_CURRENT_LIST_H
 #define NH_CURRENT_LIST_H
 
 #include "search/analysis.h"
 
+/* An empty list, in the arena. */
+void nh_current_list_begin(nh_analysis *result);
+/* An entry (of found, piece or further), to describe it; its formula stays. */
+nh_current *nh_current_list_describe(nh_analysis *result, const nh_current *entry);
 /* Appends a copy; it counts as independent where its own member says so. */
 void nh_current_list_append(nh_analysis *result, const nh_current *checked);
 /* Takes number k out of the list, into whose place the last one moves. */
@@ -19,6 +23,9 @@ size_t nh_current_list_take_all(nh_analysis *result, bool (*leaves)(const nh_cur
 void nh_current_list_sort(nh_analysis *result);
 /* Whether each of them is independent of those before it; fraction[k] of its gradient is. */
 void nh_current_list_rank(nh_analysis *result, const nh_independence *kind, const double *fraction);
+
+/* The formulas, and whether each is proved: list->count of both. */
+void nh_current_list_formulas(const nh_current_list *list, nh_ex *phi, bool *proved);
 
 /* The same for those of a part of the motions; false where there are NH_MOST_PIECES. */
 bool nh_current_list_append_piece(nh_analysis *result, const nh_current *checked);

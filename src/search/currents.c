@@ -51,15 +51,17 @@ static double heldout_residual(const nh_model *model, const nh_points *points, n
 static void decide(nh_current_checker *checker, nh_candidate *c, nh_current *f)
 {
     nh_analysis *result = checker->result;
+    nh_model *model = result->question->model;
+    const nh_options *options = &result->question->options;
     f->quotient = c->quotient;
     nh_claim claim = {0};
-    f->phi = nh_coefficients_assemble(result->model, c, &result->options, f, &claim);
-    f->heldout = heldout_residual(result->model, checker->heldout, f->phi);
-    if (nh_coefficients_refuted(f, &result->options)) return;
-    f->proof = nh_prove_claim(result->model, f->phi, claim, &result->options);
-    nh_coefficients_certify(&result->options, f);
+    f->phi = nh_coefficients_assemble(model, c, options, f, &claim);
+    f->heldout = heldout_residual(model, checker->heldout, f->phi);
+    if (nh_coefficients_refuted(f, options)) return;
+    f->proof = nh_prove_claim(model, f->phi, claim, options);
+    nh_coefficients_certify(options, f);
     /* rounding within the terms is no rate: balls have measured it, at other points */
-    if (f->heldout > result->options.heldout && f->proof.digits >= open_digits) f->heldout = pow(10, -f->proof.digits);
+    if (f->heldout > options->heldout && f->proof.digits >= open_digits) f->heldout = pow(10, -f->proof.digits);
 }
 
 /* Is a symbol named by these letters and a number? */
@@ -79,7 +81,7 @@ const char *nh_currents_name(nh_analysis *result, size_t number)
 {
     static const char *const letters[] = {"Phi", "Psi", "Xi", "Current"};
     for (size_t i = 0; !result->letter; i++)
-        if (i + 1 == sizeof letters / sizeof *letters || !is_used(result->model->dag, letters[i]))
+        if (i + 1 == sizeof letters / sizeof *letters || !is_used(result->question->model->dag, letters[i]))
             result->letter = letters[i];
     return nh_arena_printf(result->arena, "%s%zu", result->letter, number);
 }
@@ -87,43 +89,37 @@ const char *nh_currents_name(nh_analysis *result, size_t number)
 /* Refines combinations that doubles propose, with many digits at exact points, which decide. */
 static void decide_ranks(nh_analysis *result, const nh_ex *phi, nh_independence *kind)
 {
-    nh_ex *list = nh_alloc_array(result->count + 1, sizeof *list);
+    nh_ex *list = nh_alloc_array(result->list->count + 1, sizeof *list);
     size_t n = 0;
-    for (size_t k = 0; k < result->count; k++) {
+    for (size_t k = 0; k < result->list->count; k++) {
         list[n] = phi[k];
-        if (kind[k] == NH_CONSTANT || result->found[k].series) {
+        if (kind[k] == NH_CONSTANT || result->list->found[k].series) {
             n += kind[k] == NH_INDEPENDENT;
             continue;
         }
-        nh_rank *rank = &result->found[k].rank;
-        *rank = nh_rank_decide(result->model, n, list, result->options.doubt);
+        nh_rank *rank = &nh_current_list_describe(result, &result->list->found[k])->rank;
+        *rank = nh_rank_decide(result->question->model, n, list, result->question->options.doubt);
         if (rank->answer != NH_RANK_UNDECIDED) kind[k] = rank->answer == NH_RANK_GROWS ? NH_INDEPENDENT : NH_DEPENDENT;
         n += kind[k] == NH_INDEPENDENT;
     }
     nh_free(list);
 }
 
-void nh_currents_list(const nh_analysis *result, nh_ex *phi, bool *exact)
-{
-    for (size_t k = 0; k < result->count; k++) {
-        phi[k] = result->found[k].phi;
-        exact[k] = result->found[k].proof.proved;
-    }
-}
-
 static void independence(nh_analysis *result, const nh_points *generic)
 {
-    nh_ex *phi = nh_alloc_array(result->count + 1, sizeof *phi);
-    nh_independence *kind = nh_alloc_array(result->count + 1, sizeof *kind);
-    double *fraction = nh_alloc_array(result->count + 1, sizeof *fraction);
-    bool *exact = nh_alloc_array(result->count + 1, sizeof *exact);
-    nh_currents_list(result, phi, exact);
-    nh_independence_test(result->model, generic, result->count, phi, exact, result->options.sure, result->options.doubt,
-                         kind, fraction);
+    const nh_current_list *list = result->list;
+    nh_ex *phi = nh_alloc_array(list->count + 1, sizeof *phi);
+    nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
+    double *fraction = nh_alloc_array(list->count + 1, sizeof *fraction);
+    bool *exact = nh_alloc_array(list->count + 1, sizeof *exact);
+    nh_current_list_formulas(result->list, phi, exact);
+    nh_independence_test(result->question->model, generic, list->count, phi, exact, result->question->options.sure,
+                         result->question->options.doubt, kind, fraction);
     nh_free(exact);
     decide_ranks(result, phi, kind);
     nh_current_list_rank(result, kind, fraction);
-    for (size_t k = 0; k < result->count; k++) result->found[k].name = nh_currents_name(result, k + 1);
+    for (size_t k = 0; k < list->count; k++)
+        nh_current_list_describe(result, &list->found[k])->name = nh_currents_name(result, k + 1);
     nh_free(fraction);
     nh_free(kind);
     nh_free(phi);
@@ -150,8 +146,9 @@ static double relative_rate(const nh_model *model, const nh_points *points, nh_e
 static void note_almost(nh_current_checker *checker, const nh_current *f, double digits)
 {
     nh_analysis *result = checker->result;
-    double rate = relative_rate(result->model, checker->generic, f->phi), unit = result->pace > 0 ? result->pace : 1;
-    if (!(rate <= result->options.slow * unit) || digits < NH_LEAST_ALMOST) return;
+    double rate = relative_rate(result->question->model, checker->generic, f->phi),
+           unit = result->question->pace > 0 ? result->question->pace : 1;
+    if (!(rate <= result->question->options.slow * unit) || digits < NH_LEAST_ALMOST) return;
     if (!result->almost) result->almost = nh_arena_alloc(result->arena, NH_MOST_ALMOST * sizeof *result->almost);
     size_t at = result->almosts;
     while (at > 0 && result->almost[at - 1].rate > rate) at--;
@@ -169,8 +166,9 @@ static void note_almost(nh_current_checker *checker, const nh_current *f, double
 static bool keeps(nh_current_checker *checker, const nh_current *f, bool certain)
 {
     nh_analysis *result = checker->result;
-    if (nh_coefficients_certain(f, &result->options)) return true;
-    if (nh_coefficients_refuted(f, &result->options)) {
+    const nh_options *options = &result->question->options;
+    if (nh_coefficients_certain(f, options)) return true;
+    if (nh_coefficients_refuted(f, options)) {
         note_almost(checker, f, f->refined);
         return false;
     }
@@ -180,7 +178,7 @@ static bool keeps(nh_current_checker *checker, const nh_current *f, bool certain
         return false;
     }
     /* fitted coefficients never cancel further */
-    if (f->heldout <= result->options.heldout && !(f->exact && f->proof.refuted)) {
+    if (f->heldout <= options->heldout && !(f->exact && f->proof.refuted)) {
         result->open++;
         note_almost(checker, f, f->proof.digits);
         return false;
@@ -194,17 +192,18 @@ static bool keeps(nh_current_checker *checker, const nh_current *f, bool certain
 
 nh_current_checker *nh_current_checker_create(nh_analysis *result, nh_error *error)
 {
-    uint64_t seed = (uint64_t)result->options.seed;
+    uint64_t seed = (uint64_t)result->question->options.seed;
     nh_current_checker *checker = nh_alloc(sizeof *checker);
     checker->result = result;
-    checker->heldout = nh_points_create(result->model, heldout_count, 1.7, seed + 101, error);
-    checker->generic = checker->heldout ? nh_points_create(result->model, generic_count, 1, seed + 202, error) : NULL;
-    checker->inverse = nh_alloc_array(result->model->n + 1, sizeof *checker->inverse);
+    checker->heldout = nh_points_create(result->question->model, heldout_count, 1.7, seed + 101, error);
+    checker->generic =
+        checker->heldout ? nh_points_create(result->question->model, generic_count, 1, seed + 202, error) : NULL;
+    checker->inverse = nh_alloc_array(result->question->model->n + 1, sizeof *checker->inverse);
     if (!checker->generic) {
         nh_current_checker_free(checker);
         return NULL;
     }
-    checker->invertible = nh_chart_inverse(result->model->chart, checker->inverse);
+    checker->invertible = nh_chart_inverse(result->question->model->chart, checker->inverse);
     if (!checker->invertible)
         nh_analysis_warn(
             result,
@@ -224,14 +223,16 @@ void nh_current_checker_free(nh_current_checker *checker)
 nh_independence nh_currents_beside(const nh_analysis *result, const nh_points *points, nh_ex current, bool own,
                                    double doubt)
 {
-    nh_ex *phi = nh_alloc_array(result->count + 1, sizeof *phi);
-    nh_independence *kind = nh_alloc_array(result->count + 1, sizeof *kind);
-    bool *exact = nh_alloc_array(result->count + 1, sizeof *exact);
-    nh_currents_list(result, phi, exact);
-    phi[result->count] = current;
-    exact[result->count] = own;
-    nh_independence_test(result->model, points, result->count + 1, phi, exact, result->options.sure, doubt, kind, NULL);
-    nh_independence out = kind[result->count];
+    const nh_current_list *list = result->list;
+    nh_ex *phi = nh_alloc_array(list->count + 1, sizeof *phi);
+    nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
+    bool *exact = nh_alloc_array(list->count + 1, sizeof *exact);
+    nh_current_list_formulas(result->list, phi, exact);
+    phi[list->count] = current;
+    exact[list->count] = own;
+    nh_independence_test(result->question->model, points, list->count + 1, phi, exact, result->question->options.sure,
+                         doubt, kind, NULL);
+    nh_independence out = kind[list->count];
     nh_free(exact);
     nh_free(kind);
     nh_free(phi);
@@ -245,23 +246,28 @@ static bool is_known(const nh_current_checker *checker, nh_ex current, bool own,
 
 bool nh_currents_known(const nh_current_checker *checker, nh_ex current, bool exact)
 {
-    return is_known(checker, current, exact, checker->result->options.doubt);
+    return is_known(checker, current, exact, checker->result->question->options.doubt);
 }
 
 /* ---- the list ---- */
+
+static void describe(nh_current_checker *checker, const nh_current *entry)
+{
+    nh_described_fill(checker, nh_current_list_describe(checker->result, entry));
+}
 
 /* A function of the currents and the pieces so far is left out. */
 static bool add_piece(nh_current_checker *checker, const nh_current *f)
 {
     nh_analysis *result = checker->result;
-    size_t n = result->count + result->pieces;
+    const nh_current_list *list = result->list;
+    size_t n = list->count + list->pieces;
     nh_ex *phi = nh_alloc_array(n + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(n + 1, sizeof *kind);
-    for (size_t k = 0; k < n; k++)
-        phi[k] = k < result->count ? result->found[k].phi : result->piece[k - result->count].phi;
+    for (size_t k = 0; k < n; k++) phi[k] = k < list->count ? list->found[k].phi : list->piece[k - list->count].phi;
     phi[n] = f->phi;
-    nh_independence_test(result->model, checker->generic, n + 1, phi, NULL, result->options.sure, result->options.doubt,
-                         kind, NULL);
+    nh_independence_test(result->question->model, checker->generic, n + 1, phi, NULL, result->question->options.sure,
+                         result->question->options.doubt, kind, NULL);
     bool added = kind[n] == NH_INDEPENDENT && nh_current_list_append_piece(result, f);
     nh_free(kind);
     nh_free(phi);
@@ -272,15 +278,16 @@ static bool add_piece(nh_current_checker *checker, const nh_current *f)
 static void keep_piece(nh_current_checker *checker, const nh_current *f)
 {
     nh_analysis *result = checker->result;
+    const nh_current_list *list = result->list;
     nh_current aside[NH_MOST_PIECES];
     bool stays[NH_MOST_PIECES] = {0};
     size_t certified = 0;
-    for (size_t k = 0; k < result->pieces; k++) {
-        stays[k] = result->piece[k].proof.proved || !f->proof.proved;
-        if (!stays[k]) aside[certified++] = result->piece[k];
+    for (size_t k = 0; k < list->pieces; k++) {
+        stays[k] = list->piece[k].proof.proved || !f->proof.proved;
+        if (!stays[k]) aside[certified++] = list->piece[k];
     }
     nh_current_list_keep_pieces(result, stays);
-    if (add_piece(checker, f)) nh_described_fill(checker, &result->piece[result->pieces - 1]);
+    if (add_piece(checker, f)) describe(checker, &list->piece[list->pieces - 1]);
     for (size_t k = 0; k < certified; k++) add_piece(checker, &aside[k]);
 }
 
@@ -305,12 +312,12 @@ static bool check(nh_current_checker *checker, nh_candidate *candidate, const nh
                   nh_current *f)
 {
     nh_analysis *result = checker->result;
+    const nh_options *options = &result->question->options;
     *f = (nh_current){0};
-    nh_echelon_refine(result->model, fit, candidate, &result->options);
+    nh_echelon_refine(result->question->model, fit, candidate, options);
     decide(checker, candidate, f);
-    checker->refuted += nh_coefficients_refuted(f, &result->options);
-    if (nh_coefficients_refuted(f, &result->options) && f->refined >= NH_LEAST_ALMOST &&
-        checker->nears < NH_MOST_ALMOST)
+    checker->refuted += nh_coefficients_refuted(f, options);
+    if (nh_coefficients_refuted(f, options) && f->refined >= NH_LEAST_ALMOST && checker->nears < NH_MOST_ALMOST)
         checker->near[checker->nears++] = candidate;
     /* exact coefficients are not those of the fit, by which it was compared */
     bool again = f->moved || !certain || (f->exact && candidate->count > 1 && candidate->only_new);
@@ -328,7 +335,7 @@ bool nh_currents_add(nh_current_checker *checker, nh_candidate *candidate, const
 
 void nh_currents_add_again(nh_current_checker *checker, nh_candidate *candidate, const nh_points *fit, bool certain)
 {
-    nh_current last = nh_current_list_take(checker->result, checker->result->count - 1);
+    nh_current last = nh_current_list_take(checker->result, checker->result->list->count - 1);
     if (!nh_currents_add(checker, candidate, fit, certain)) nh_current_list_append(checker->result, &last);
 }
 
@@ -337,18 +344,20 @@ void nh_currents_add_again(nh_current_checker *checker, nh_candidate *candidate,
 static bool take_place(nh_current_checker *checker, const nh_current *f)
 {
     nh_analysis *result = checker->result;
-    for (size_t k = result->count; k-- > 0;) {
-        const nh_current *have = &result->found[k];
-        if (have->series || have->energy || nh_counted_degree_of(result->model, have->phi) < INFINITY) continue;
+    const nh_current_list *list = result->list;
+    for (size_t k = list->count; k-- > 0;) {
+        const nh_current *have = &list->found[k];
+        if (have->series || have->energy || nh_counted_degree_of(result->question->model, have->phi) < INFINITY)
+            continue;
         if (have->proof.all_parameters && !f->proof.all_parameters) continue;
         nh_current old = nh_current_list_take(result, k);
         if (!nh_currents_known(checker, f->phi, f->proof.proved)) {
             nh_current_list_append(result, f);
             if (nh_currents_known(checker, old.phi, old.proof.proved)) {
-                nh_described_fill(checker, &result->found[result->count - 1]);
+                describe(checker, &list->found[list->count - 1]);
                 return true;
             }
-            nh_current_list_take(result, result->count - 1);
+            nh_current_list_take(result, list->count - 1);
         }
         nh_current_list_append(result, &old);
     }
@@ -358,13 +367,14 @@ static bool take_place(nh_current_checker *checker, const nh_current *f)
 bool nh_currents_add_further(nh_current_checker *checker, nh_candidate *candidate, const nh_points *fit, size_t degree)
 {
     nh_analysis *result = checker->result;
+    nh_model *model = result->question->model;
     nh_current f;
-    if (!check(checker, candidate, fit, true, &f) || !f.proof.proved || result->furthers == NH_MOST_FURTHER)
+    if (!check(checker, candidate, fit, true, &f) || !f.proof.proved || result->list->furthers == NH_MOST_FURTHER)
         return false;
-    nh_region open = nh_region_open(result->model, &checker->terrain, f.phi, &result->options, result->arena);
+    nh_region open = nh_region_open(model, &checker->terrain, f.phi, &result->question->options, result->arena);
     if (open.count && nh_currents_continue(checker, &f))
-        open = nh_region_open(result->model, &checker->terrain, f.phi, &result->options, result->arena);
-    f.region = nh_region_text(result->model->dag, &open, result->arena);
+        open = nh_region_open(model, &checker->terrain, f.phi, &result->question->options, result->arena);
+    f.region = nh_region_text(model->dag, &open, result->arena);
     if (!f.region && take_place(checker, &f)) return true;
     f.independence = NH_DEPENDENT;
     return nh_current_list_append_further(result, &f, degree);
@@ -376,8 +386,9 @@ static bool add_related(nh_current_checker *checker, nh_ex phi, double quotient)
     nh_analysis *result = checker->result;
     nh_current f = {.phi = phi, .exact = true, .quotient = quotient};
     if (nh_currents_known(checker, phi, true)) return false;
-    f.heldout = heldout_residual(result->model, checker->heldout, phi);
-    f.proof = nh_prove_claim(result->model, phi, (nh_claim){.free = true, .related = true}, &result->options);
+    f.heldout = heldout_residual(result->question->model, checker->heldout, phi);
+    f.proof = nh_prove_claim(result->question->model, phi, (nh_claim){.free = true, .related = true},
+                             &result->question->options);
     bool good = keeps(checker, &f, true) && holds_everywhere(checker, &f);
     if (good) nh_current_list_append(result, &f);
     return good;
@@ -385,7 +396,7 @@ static bool add_related(nh_current_checker *checker, nh_ex phi, double quotient)
 
 bool nh_currents_exchange_last(nh_current_checker *checker, nh_ex phi)
 {
-    nh_current last = nh_current_list_take(checker->result, checker->result->count - 1);
+    nh_current last = nh_current_list_take(checker->result, checker->result->list->count - 1);
     bool added = add_related(checker, phi, last.quotient);
     bool exchanged = added && nh_currents_known(checker, last.phi, last.proof.proved);
     if (!exchanged) nh_current_list_append(checker->result, &last);
@@ -396,12 +407,13 @@ bool nh_currents_add_series(nh_current_checker *checker, nh_ex phi, const nh_ser
                             const char *meaning)
 {
     nh_analysis *result = checker->result;
+    nh_model *model = result->question->model;
     nh_current f = {.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = true, .refined = digits};
-    if (nh_declared_unspecified(result->model->dag)) return false; /* of the stand-in */
+    if (nh_declared_unspecified(model->dag)) return false; /* of the stand-in */
     if (nh_currents_known(checker, f.phi, f.proof.proved)) return false;
-    f.heldout = heldout_residual(result->model, checker->heldout, phi);
-    f.proof = nh_prove_current(result->model, phi, false, &result->options);
-    nh_coefficients_certify(&result->options, &f);
+    f.heldout = heldout_residual(model, checker->heldout, phi);
+    f.proof = nh_prove_current(model, phi, false, &result->question->options);
+    nh_coefficients_certify(&result->question->options, &f);
     if (!keeps(checker, &f, true)) return false;
     nh_described_fill(checker, &f);
     if (meaning) f.meaning = meaning;
@@ -430,10 +442,10 @@ static void miss_energy(nh_current_checker *checker)
 {
     enum { longest = 40 };
     nh_analysis *result = checker->result;
-    const nh_model *model = result->model;
-    for (size_t k = 0; k < result->count; k++)
-        if (result->found[k].energy) return;
-    if (!(heldout_residual(model, checker->generic, model->E) > result->options.heldout)) return;
+    const nh_model *model = result->question->model;
+    for (size_t k = 0; k < result->list->count; k++)
+        if (result->list->found[k].energy) return;
+    if (!(heldout_residual(model, checker->generic, model->E) > result->question->options.heldout)) return;
     nh_ex rate = nh_model_gamma(model, model->E);
     if (nh_complexity(model->dag, rate) < 10 * longest) rate = nh_simplify(model->dag, rate);
     rate = nh_chart_in_velocities(model->chart, nh_chart_shown(model->chart, rate));
@@ -450,7 +462,7 @@ static void forget_known_almosts(nh_current_checker *checker)
     nh_analysis *result = checker->result;
     size_t kept = 0;
     for (size_t k = 0; k < result->almosts; k++)
-        if (!is_known(checker, result->almost[k].phi, false, result->options.sure))
+        if (!is_known(checker, result->almost[k].phi, false, result->question->options.sure))
             result->almost[kept++] = result->almost[k];
     result->almosts = kept;
 }
@@ -459,11 +471,13 @@ static void forget_known_almosts(nh_current_checker *checker)
 static void name_pieces(nh_current_checker *checker)
 {
     nh_analysis *result = checker->result;
+    const nh_current_list *list = result->list;
     bool keep[NH_MOST_PIECES] = {0};
-    for (size_t k = 0; k < result->pieces; k++)
-        keep[k] = !nh_currents_known(checker, result->piece[k].phi, result->piece[k].proof.proved);
+    for (size_t k = 0; k < list->pieces; k++)
+        keep[k] = !nh_currents_known(checker, list->piece[k].phi, list->piece[k].proof.proved);
     nh_current_list_keep_pieces(result, keep);
-    for (size_t k = 0; k < result->pieces; k++) result->piece[k].name = nh_currents_name(result, result->count + k + 1);
+    for (size_t k = 0; k < list->pieces; k++)
+        nh_current_list_describe(result, &list->piece[k])->name = nh_currents_name(result, list->count + k + 1);
 }
 
 static bool is_known_series(const nh_current *f) { return f->series && f->independence != NH_INDEPENDENT; }
@@ -478,7 +492,7 @@ static bool forget_known_series(nh_analysis *result)
 void nh_currents_recount(nh_current_checker *checker)
 {
     bool series = false;
-    for (size_t k = 0; k < checker->result->count; k++) series |= checker->result->found[k].series != NULL;
+    for (size_t k = 0; k < checker->result->list->count; k++) series |= checker->result->list->found[k].series != NULL;
     if (!series) return;
     nh_current_list_sort(checker->result);
     independence(checker->result, checker->generic);

@@ -34,8 +34,6 @@ void nh_currents_take_back(nh_current_checker *bench, size_t n, const nh_current
 /* "Phi3"; "Psi3" where the system has a symbol such as Phi1, and so on.  Belongs to the arena of the analysis. */
 const char *nh_currents_name(nh_analysis *analysis, size_t number);
 
-/* Writes the currents found so far, and which of them have no fitted numbers, as independence.h asks for them. */
-void nh_currents_list(const nh_analysis *analysis, nh_ex *phi, bool *exact);
 /* Is a function independent of the currents found, at these points?  In doubles up to `doubt` of its gradient; from
  * there to the option `sure` in ball arithmetic.  exact: its numbers are. */
 nh_independence nh_currents_beside(const nh_analysis *analysis, const nh_points *points, nh_ex current, bool exact,

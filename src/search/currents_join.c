@@ -47,9 +47,10 @@ size_t nh_currents_join(nh_current_checker *checker, const nh_points *fit)
     bool *leading = nh_alloc_array(n + 1, sizeof *leading);
     n = unite(checker, term, leading);
     nh_refined better = {0};
-    if (checker->nears > 1 && n <= most_terms) better = nh_refine(result->model, n, term, leading, &result->options);
+    if (checker->nears > 1 && n <= most_terms)
+        better = nh_refine(result->question->model, n, term, leading, &result->question->options);
     for (size_t k = 0; k < better.count; k++) {
-        if (better.digits[k] < result->options.digits) continue;
+        if (better.digits[k] < result->question->options.digits) continue;
         nh_candidate c = joined(checker, n, term, leading, better.coefficient + k * n);
         added += nh_currents_add(checker, &c, fit, false);
     }

@@ -12,16 +12,18 @@
 static nh_region region_of(nh_current_checker *checker, nh_ex phi, double digits)
 {
     nh_analysis *result = checker->result;
-    if (!checker->searched) checker->terrain = nh_terrain_of(result->model, &result->options, result->arena);
+    if (!checker->searched)
+        checker->terrain = nh_terrain_of(result->question->model, &result->question->options, result->arena);
     checker->searched = true;
-    return nh_region_of(result->model, &checker->terrain, phi, digits, &result->options, result->arena);
+    return nh_region_of(result->question->model, &checker->terrain, phi, digits, &result->question->options,
+                        result->arena);
 }
 
 const char *nh_currents_region(nh_current_checker *checker, nh_ex phi, double digits, bool *to_the_end)
 {
     nh_region region = region_of(checker, phi, digits);
     if (to_the_end) *to_the_end = nh_region_to_the_end(&region);
-    return nh_region_text(checker->result->model->dag, &region, checker->result->arena);
+    return nh_region_text(checker->result->question->model->dag, &region, checker->result->arena);
 }
 
 /* e with |u| and sign(u) as on the side of the wall u = 0 on which the region lies. */
@@ -45,8 +47,8 @@ static nh_ex on_its_side(nh_dag *d, const nh_region *region, nh_ex e)
 
 const char *nh_currents_hold(nh_current_checker *checker, nh_current *f)
 {
-    const nh_model *model = checker->result->model;
-    const nh_options *options = &checker->result->options;
+    const nh_model *model = checker->result->question->model;
+    const nh_options *options = &checker->result->question->options;
     bool everywhere = f->proof.proved && !f->proof.sided;
     /* a formula that cancels to fewer digits as printed cannot be required to do better */
     nh_region region = region_of(checker, f->phi,
@@ -70,10 +72,10 @@ const char *nh_currents_hold(nh_current_checker *checker, nh_current *f)
  * everywhere; perhaps for more parameter values, because it has no roots and arctangents whose branches must agree. */
 static bool goes_through(nh_current_checker *checker, nh_current *f, nh_ex phi)
 {
-    nh_model *model = checker->result->model;
+    nh_model *model = checker->result->question->model;
     nh_claim claim = {.free = f->exact, .fixed = f->proof.fixed};
     if (phi == f->phi) return false;
-    nh_proof proof = nh_prove_claim(model, phi, claim, &checker->result->options);
+    nh_proof proof = nh_prove_claim(model, phi, claim, &checker->result->question->options);
     if (!proof.proved || nh_currents_region(checker, phi, 0, NULL)) return false;
     f->phi = nh_simplify_short(model->dag, phi, 0);
     f->proof = proof;
@@ -82,9 +84,10 @@ static bool goes_through(nh_current_checker *checker, nh_current *f, nh_ex phi)
 
 bool nh_currents_continue(nh_current_checker *checker, nh_current *f)
 {
-    nh_model *model = checker->result->model;
+    nh_model *model = checker->result->question->model;
     if (!f->proof.proved) return false;
-    if (goes_through(checker, f, nh_continued_roots(model, f->phi, (uint64_t)checker->result->options.seed)) ||
+    if (goes_through(checker, f,
+                     nh_continued_roots(model, f->phi, (uint64_t)checker->result->question->options.seed)) ||
         goes_through(checker, f, nh_continued_arctangents(model, f->phi)))
         return true;
     /* a polynomial in the velocities, such as the energy in a potential atan(y/x), is counted as one */

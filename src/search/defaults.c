@@ -7,8 +7,8 @@
 bool nh_defaults_initial(nh_analysis *result, nh_state *state, nh_error *error)
 {
     static const double inner = 0.7; /* part of the box */
-    const nh_model *model = result->model;
-    nh_points *p = nh_points_create(model, 1, inner, (uint64_t)result->options.seed + 909, error);
+    const nh_model *model = result->question->model;
+    nh_points *p = nh_points_create(model, 1, inner, (uint64_t)result->question->options.seed + 909, error);
     if (!p) return false;
     *state = (nh_state){0, nh_arena_alloc(result->arena, (model->m + 1) * sizeof(double)),
                         nh_arena_alloc(result->arena, (model->m + 1) * sizeof(double)), NULL, NULL};

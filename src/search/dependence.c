@@ -9,6 +9,7 @@
 #include "exact/relation.h"
 #include "graph/dag.h"
 #include "problem/analysis_file.h"
+#include "search/current_list.h"
 
 enum { most_currents = 6, point_factor = 3 };
 
@@ -27,7 +28,7 @@ static void add(nh_dag *d, monomials *m, nh_ex pa, nh_ex pb, nh_ex va, nh_ex vb)
 
 static monomials build(nh_analysis *result, size_t n, const nh_ex *symbol, const nh_ex *phi)
 {
-    nh_dag *d = result->model->dag;
+    nh_dag *d = result->question->model->dag;
     size_t most = (n + 1) * (n + 2) / 2;
     monomials m = {0, nh_alloc_array(most, sizeof(nh_ex)), nh_alloc_array(most, sizeof(nh_ex))};
     nh_ex one = nh_int(d, 1);
@@ -76,7 +77,7 @@ static bool numeric_relation(const nh_points *points, const nh_model *model, con
 /* "Phi4^2 = ..." with exact coefficients, or NULL. */
 static const char *exact_relation(nh_analysis *result, const monomials *m, const bool *used, nh_ex own)
 {
-    nh_model *model = result->model;
+    nh_model *model = result->question->model;
     nh_dag *d = model->dag;
     nh_ex *value = nh_alloc_array(m->count, sizeof *value), *name = nh_alloc_array(m->count, sizeof *name),
           *c = nh_alloc_array(m->count, sizeof *c);
@@ -89,7 +90,7 @@ static const char *exact_relation(nh_analysis *result, const monomials *m, const
     }
     const char *text = NULL;
     bool exact = nh_relation_find(d, n, value, model->system->parameters, model->parameter,
-                                  (size_t)result->options.proof_terms, c) == NH_RELATION_UNIQUE;
+                                  (size_t)result->question->options.proof_terms, c) == NH_RELATION_UNIQUE;
     if (exact && !nh_is_zero(d, c[pivot])) {
         nh_ex right = nh_int(d, 0);
         for (size_t j = 0; j < n; j++)
@@ -109,9 +110,9 @@ static const char *exact_relation(nh_analysis *result, const monomials *m, const
 static size_t independent_ones(nh_analysis *result, size_t count, nh_ex *symbol, nh_ex *phi)
 {
     size_t n = 0;
-    for (nh_current *g = result->found; g < result->found + count && n < most_currents; g++) {
+    for (const nh_current *g = result->list->found; g < result->list->found + count && n < most_currents; g++) {
         if (g->independence != NH_INDEPENDENT || g->series) continue;
-        symbol[n] = nh_symbol_fresh(result->model->dag, g->name);
+        symbol[n] = nh_symbol_fresh(result->question->model->dag, g->name);
         phi[n++] = g->phi;
     }
     return n;
@@ -122,8 +123,9 @@ static const char *relate(nh_analysis *result, const nh_points *points, size_t n
 {
     monomials m = build(result, n, symbol, phi);
     bool *used = nh_alloc_array(m.count, sizeof *used);
-    const char *text =
-        numeric_relation(points, result->model, &m, used) ? exact_relation(result, &m, used, symbol[n - 1]) : NULL;
+    const char *text = numeric_relation(points, result->question->model, &m, used)
+                           ? exact_relation(result, &m, used, symbol[n - 1])
+                           : NULL;
     nh_free(used);
     nh_free(m.name_of);
     nh_free(m.value);
@@ -135,22 +137,23 @@ static nh_points *points_for_relations(const nh_analysis *result)
     size_t monomial_count = (most_currents + 2) * (most_currents + 3) / 2;
     nh_error ignored;
     nh_error_clear(&ignored);
-    return nh_points_create(result->model, point_factor * monomial_count, 1, (uint64_t)result->options.seed + 303,
-                            &ignored);
+    return nh_points_create(result->question->model, point_factor * monomial_count, 1,
+                            (uint64_t)result->question->options.seed + 303, &ignored);
 }
 
 void nh_dependence_relations(nh_analysis *result)
 {
+    const nh_current_list *list = result->list;
     nh_ex symbol[most_currents + 1], phi[most_currents + 1];
     nh_points *points = NULL;
-    for (size_t k = 0; k < result->count; k++) {
-        if (result->found[k].independence != NH_DEPENDENT) continue;
+    for (size_t k = 0; k < list->count; k++) {
+        if (list->found[k].independence != NH_DEPENDENT) continue;
         if (!points) points = points_for_relations(result);
         if (!points) break;
         size_t n = independent_ones(result, k, symbol, phi);
-        symbol[n] = nh_symbol_fresh(result->model->dag, result->found[k].name);
-        phi[n++] = result->found[k].phi;
-        result->found[k].relation = relate(result, points, n, symbol, phi);
+        symbol[n] = nh_symbol_fresh(result->question->model->dag, list->found[k].name);
+        phi[n++] = list->found[k].phi;
+        nh_current_list_describe(result, &list->found[k])->relation = relate(result, points, n, symbol, phi);
     }
     nh_points_free(points);
 }
@@ -163,15 +166,15 @@ enum { most_known = 6 };
  * the same names. */
 static size_t known_currents(nh_analysis *result, nh_ex *symbol, nh_ex *phi, const char **doc)
 {
-    const nh_system *system = result->model->system;
+    nh_model *model = result->question->model;
+    const nh_system *system = model->system;
     size_t n = 0;
     nh_error ignored;
     nh_error_clear(&ignored);
     for (size_t k = 0; k < system->currents && n < most_known; k++) {
-        if (!nh_analysis_file_to_chart(result->model, system->current[k].value, &phi[n], &ignored)) continue;
+        if (!nh_analysis_file_to_chart(model, system->current[k].value, &phi[n], &ignored)) continue;
         doc[n] = system->current[k].doc;
-        symbol[n++] =
-            nh_symbol_fresh(result->model->dag, nh_arena_printf(result->arena, "[%s]", system->current[k].name));
+        symbol[n++] = nh_symbol_fresh(model->dag, nh_arena_printf(result->arena, "[%s]", system->current[k].name));
     }
     return n;
 }
@@ -182,7 +185,8 @@ static const char *multiple(nh_analysis *result, const nh_points *points, size_t
 {
     monomials two = {2, (nh_ex[]){symbol[k], symbol[n]}, (nh_ex[]){phi[k], phi[n]}};
     bool both[2] = {false, false};
-    return numeric_relation(points, result->model, &two, both) ? exact_relation(result, &two, both, symbol[n]) : NULL;
+    return numeric_relation(points, result->question->model, &two, both) ? exact_relation(result, &two, both, symbol[n])
+                                                                         : NULL;
 }
 
 /* Is it a constant multiple of one of them, or a sum of multiples? */
@@ -198,7 +202,7 @@ static const char *combination(nh_analysis *result, const nh_points *points, siz
     memcpy(name, symbol, (n + 1) * sizeof *name);
     memcpy(value, phi, (n + 1) * sizeof *value);
     monomials all = {n + 1, name, value};
-    return numeric_relation(points, result->model, &all, used) && used[n]
+    return numeric_relation(points, result->question->model, &all, used) && used[n]
                ? exact_relation(result, &all, used, symbol[n])
                : NULL;
 }
@@ -207,7 +211,7 @@ static const char *combination(nh_analysis *result, const nh_points *points, siz
 static const char *product(nh_analysis *result, const nh_points *points, size_t n, const nh_ex *symbol,
                            const nh_ex *phi)
 {
-    nh_dag *d = result->model->dag;
+    nh_dag *d = result->question->model->dag;
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             for (size_t quotient = j <= i ? 0 : 1; quotient < 2; quotient++) {
@@ -216,7 +220,7 @@ static const char *product(nh_analysis *result, const nh_points *points, size_t 
                 nh_ex value = quotient ? nh_div(d, phi[i], phi[j]) : nh_mul(d, phi[i], phi[j]);
                 monomials two = {2, (nh_ex[]){name, symbol[n]}, (nh_ex[]){value, phi[n]}};
                 bool used[2] = {false, false};
-                const char *text = numeric_relation(points, result->model, &two, used)
+                const char *text = numeric_relation(points, result->question->model, &two, used)
                                        ? exact_relation(result, &two, used, symbol[n])
                                        : NULL;
                 if (text) return text;
@@ -226,19 +230,20 @@ static const char *product(nh_analysis *result, const nh_points *points, size_t 
 
 void nh_dependence_on_known(nh_analysis *result)
 {
+    nh_model *model = result->question->model;
     nh_ex symbol[most_known + 1], phi[most_known + 1];
     const char *doc[most_known];
-    size_t n = result->model->system->currents ? known_currents(result, symbol, phi, doc) : 0;
+    size_t n = model->system->currents ? known_currents(result, symbol, phi, doc) : 0;
     nh_points *points = NULL;
     nh_error ignored;
     nh_error_clear(&ignored);
     if (n)
-        points = nh_points_create(result->model, point_factor * (most_known + 1), 1,
-                                  (uint64_t)result->options.seed + 307, &ignored);
-    for (size_t k = 0; k < result->count && points; k++) {
-        nh_current *f = &result->found[k];
+        points = nh_points_create(model, point_factor * (most_known + 1), 1,
+                                  (uint64_t)result->question->options.seed + 307, &ignored);
+    for (size_t k = 0; k < result->list->count && points; k++) {
+        nh_current *f = nh_current_list_describe(result, &result->list->found[k]);
         if (f->series) continue;
-        symbol[n] = nh_symbol_fresh(result->model->dag, f->name);
+        symbol[n] = nh_symbol_fresh(model->dag, f->name);
         phi[n] = f->phi;
         for (size_t i = 0; i < n && !f->doc; i++)
             if (*doc[i] && multiple(result, points, n, i, symbol, phi)) f->doc = doc[i];
@@ -253,8 +258,8 @@ const char *nh_dependence_on_found(nh_analysis *result, const char *name, nh_ex 
 {
     nh_ex symbol[most_currents + 1], phi[most_currents + 1];
     nh_points *points = points_for_relations(result);
-    size_t n = independent_ones(result, result->count, symbol, phi);
-    symbol[n] = nh_symbol_fresh(result->model->dag, nh_arena_printf(result->arena, "[%s]", name));
+    size_t n = independent_ones(result, result->list->count, symbol, phi);
+    symbol[n] = nh_symbol_fresh(result->question->model->dag, nh_arena_printf(result->arena, "[%s]", name));
     phi[n] = value;
     const char *text = points ? combination(result, points, n, symbol, phi) : NULL;
     if (points && !text) text = product(result, points, n, symbol, phi);

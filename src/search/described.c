@@ -153,7 +153,7 @@ static bool looks_proportional(size_t points, const double *phi, const double *e
 
 static void find_meaning(nh_analysis *result, const nh_points *points, nh_current *f)
 {
-    nh_model *model = result->model;
+    nh_model *model = result->question->model;
     size_t n = 2 + model->m, count = points->count, found = 0;
     nh_ex *e = nh_alloc_array(n, sizeof *e);
     double *value = nh_alloc_array(n * count, sizeof *value);
@@ -177,7 +177,7 @@ static void find_meaning(nh_analysis *result, const nh_points *points, nh_curren
 
 void nh_current_in_velocities(const nh_current_checker *checker, nh_current *f)
 {
-    nh_model *model = checker->result->model;
+    nh_model *model = checker->result->question->model;
     bool invertible = checker->invertible && !model->framed; /* angular velocities are what one reads */
     nh_ex *v = nh_alloc_array(model->chart->implicit + 1, sizeof *v);
     for (size_t a = 0; a < model->chart->implicit; a++) v[a] = model->system->coordinate[model->chart->dependent[a]].v;
@@ -193,8 +193,8 @@ void nh_current_in_velocities(const nh_current_checker *checker, nh_current *f)
 void nh_described_fill(nh_current_checker *checker, nh_current *f)
 {
     nh_analysis *result = checker->result;
-    if (!f->series) normalise(result->model, f);
-    f->local = is_local(result->model, checker->generic, f->phi, f->series);
+    if (!f->series) normalise(result->question->model, f);
+    f->local = is_local(result->question->model, checker->generic, f->phi, f->series);
     find_meaning(result, checker->generic, f);
     nh_current_in_velocities(checker, f);
 }

@@ -189,13 +189,14 @@ static nh_system *system_in(frame *f, nh_arena *arena)
  * formulas may not be.  `value`: what velocities of the first are in the second. */
 static void hand_over(nh_stage_solver *to, const nh_analysis *from, size_t n, const nh_ex *velocity, const nh_ex *value)
 {
-    const nh_model *model = to->r->model;
-    for (size_t k = 0; k < from->count && !nh_stage_solver_done(to); k++) {
-        if (from->found[k].series || !from->found[k].proof.proved) continue;
-        nh_ex e = nh_model_compose(model, nh_substitute(model->dag, from->found[k].phi, n, velocity, value));
+    const nh_current_list *list = from->list;
+    const nh_model *model = to->r->question->model;
+    for (size_t k = 0; k < list->count && !nh_stage_solver_done(to); k++) {
+        if (list->found[k].series || !list->found[k].proof.proved) continue;
+        nh_ex e = nh_model_compose(model, nh_substitute(model->dag, list->found[k].phi, n, velocity, value));
         e = nh_simplify_short(model->dag, e, 0);
         if (nh_currents_known(to->bench, e, true)) continue;
-        if (!nh_prove_claim(model, e, (nh_claim){.free = true}, &to->r->options).proved) continue;
+        if (!nh_prove_claim(model, e, (nh_claim){.free = true}, &to->r->question->options).proved) continue;
         nh_stage_solver_certify(to, e, "integration in velocities along and across headings");
     }
 }
@@ -208,18 +209,18 @@ void nh_frames_search(nh_stage_solver *solver)
     nh_stage_solver x;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!result->system->constraints || result->system->constraints > many || result->system->quasi ||
-        result->model->chart->implicit || nh_late())
+    if (!result->question->system->constraints || result->question->system->constraints > many ||
+        result->question->system->quasi || result->question->model->chart->implicit || nh_late())
         return;
-    frame f = frame_of(result->arena, result->model);
+    frame f = frame_of(result->arena, result->question->model);
     turn_all(&f);
     nh_system *system = f.turns ? system_in(&f, result->arena) : NULL;
     if (!system) return;
     nh_progress("integration in velocities along and across headings", -1);
     nh_analysis *other = nh_other_system_open(result, system, NH_CHART_AUTO);
     if (!other) return;
-    nh_budget_begin(part * result->options.work);
-    if (other->model->chart->quasi && nh_stage_solver_begin(&x, other, &ignored)) {
+    nh_budget_begin(part * result->question->options.work);
+    if (other->question->model->chart->quasi && nh_stage_solver_begin(&x, other, &ignored)) {
         hand_over(&x, result, f.m, f.velocity, system->quasi_map);
         nh_slopes_search(&x);
         nh_quadratures_search(&x);

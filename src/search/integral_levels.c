@@ -61,8 +61,8 @@ static void gather(levels *x)
 {
     enum { longest = 60 };
     const nh_analysis *result = x->solver->r;
-    for (size_t k = 0; k < result->count && x->count < most_levels && x->count + 1 < x->o->n; k++) {
-        const nh_current *f = &result->found[k];
+    for (size_t k = 0; k < result->list->count && x->count < most_levels && x->count + 1 < x->o->n; k++) {
+        const nh_current *f = &result->list->found[k];
         bool usable = !f->series && f->proof.all_parameters && f->has_in_velocities &&
                       f->independence == NH_INDEPENDENT && !nh_depends(x->d, f->phi, x->o->system->t);
         if (!usable || nh_complexity(x->d, f->in_velocities) > longest || !is_linear(x->o, f->phi)) continue;
@@ -99,22 +99,24 @@ void nh_integral_levels_search(nh_stage_solver *solver)
 {
     static const double part = 0.04; /* of the work: what is short is found with much less */
     nh_analysis *result = solver->r;
-    levels x = {.solver = solver, .o = result->model, .d = result->model->dag};
+    nh_model *model = result->question->model;
+    levels x = {.solver = solver, .o = model, .d = model->dag};
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (result->derived || result->model->chart->implicit || nh_late()) return;
+    if (result->question->derived || model->chart->implicit || nh_late()) return;
     gather(&x);
     if (!x.count) return;
     nh_progress("the levels of linear integrals", -1);
-    nh_analysis *on = nh_other_system_open(result, system_on(&x, result->arena, result->system), NH_CHART_AUTO);
+    nh_analysis *on =
+        nh_other_system_open(result, system_on(&x, result->arena, result->question->system), NH_CHART_AUTO);
     if (!on) return;
-    nh_budget_begin(part * result->options.work);
+    nh_budget_begin(part * result->question->options.work);
     nh_stage_solver y;
     if (nh_stage_solver_begin(&y, on, &ignored)) {
-        y.words = nh_dictionary_of(on->model);
+        y.words = nh_dictionary_of(on->question->model);
         nh_linear_motion_search(&y);
         if (!nh_stage_solver_done(&y)) nh_linear_motion_functions(&y);
-        for (size_t k = 0; k < on->count; k++) take(&x, &on->found[k]);
+        for (size_t k = 0; k < on->list->count; k++) take(&x, &on->list->found[k]);
         nh_stage_solver_end(&y);
     }
     nh_budget_begin(INFINITY);

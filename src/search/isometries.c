@@ -67,10 +67,11 @@ static nh_ex magnetic(const nh_kinetic *k, const nh_ex *a, const nh_generator *g
 static size_t momenta(const nh_stage_solver *solver, nh_ex *P, list *also)
 {
     nh_analysis *r = solver->r;
-    const nh_model *model = r->model;
+    const nh_options *options = &r->question->options;
+    const nh_model *model = r->question->model;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_kinetic *k = nh_kinetic_metric(model, (uint64_t)r->options.seed + 909, &ignored);
+    nh_kinetic *k = nh_kinetic_metric(model, (uint64_t)options->seed + 909, &ignored);
     nh_jets *jets = NULL;
     nh_generators found = {0};
     nh_ex *a = NULL;
@@ -82,9 +83,8 @@ static size_t momenta(const nh_stage_solver *solver, nh_ex *P, list *also)
         alone.linear = alone.affine = alone.autonomous = alone.general = true;
         alone.f = 0;
         for (size_t s = 0; s < k->m; s++) alone.a[s] = nh_int(k->dag, 0);
-        jets = nh_jets_find(&alone, &r->options, &ignored);
-        if (jets && jets->dimension && !nh_generators_find(&found, &alone, jets, &r->options, &ignored))
-            found.count = 0;
+        jets = nh_jets_find(&alone, options, &ignored);
+        if (jets && jets->dimension && !nh_generators_find(&found, &alone, jets, options, &ignored)) found.count = 0;
     }
     size_t n = 0;
     for (size_t i = 0; i < found.count && i < most_momenta; i++) {
@@ -100,7 +100,7 @@ static size_t momenta(const nh_stage_solver *solver, nh_ex *P, list *also)
 /* 1, cos, sin to the given harmonic of every angle by itself. */
 static list harmonics(const nh_stage_solver *solver, int most)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_dag *d = model->dag;
     list l = {0};
     put(&l, nh_int(d, 1));
@@ -120,7 +120,7 @@ static nh_family functions_family(const nh_stage_solver *solver, int most_harmon
     nh_arena *arena = solver->r->arena;
     list *w = nh_arena_alloc(arena, sizeof *w), *f = nh_arena_alloc(arena, sizeof *f);
     *w = harmonics(solver, most_harmonic);
-    put(f, nh_int(solver->r->model->dag, 1));
+    put(f, nh_int(solver->r->question->model->dag, 1));
     for (size_t i = 0; i < solver->words.atoms; i++) put(f, solver->words.atom[i]);
     for (size_t i = 0; i < solver->words.potentials; i++) put(f, solver->words.potential[i]);
     for (size_t i = 0; i < solver->words.lengths; i++) put(f, solver->words.length[i]);
@@ -135,7 +135,7 @@ static void on_a_sphere(nh_stage_solver *solver, size_t n, const nh_ex *P)
 {
     enum { waves = 3 };
     nh_analysis *result = solver->r;
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     nh_dag *d = model->dag;
     nh_family_list families = {result->arena, model, &solver->words, NULL, 0};
     nh_expr_set momenta = {0};
@@ -161,7 +161,7 @@ static void on_a_sphere(nh_stage_solver *solver, size_t n, const nh_ex *P)
 void nh_isometries_search(nh_stage_solver *solver)
 {
     nh_analysis *result = solver->r;
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     if (model->m > most_coordinates ||
         (nh_counted_covers(&solver->counted, 1, true) && nh_counted_covers(&solver->counted, 2, false)))
         return;
@@ -170,7 +170,7 @@ void nh_isometries_search(nh_stage_solver *solver)
           *PP = nh_arena_alloc(result->arena, (most_momenta * most_momenta + 1) * sizeof *PP);
     list *also = nh_arena_alloc(result->arena, sizeof *also);
     also->n = 0;
-    put(also, solver->r->system->t); /* a force that is uniform along the field */
+    put(also, solver->r->question->system->t); /* a force that is uniform along the field */
     size_t n = momenta(solver, P, also), squares = 0;
     if (n == 0) return;
     nh_family part[4], *all = nh_arena_alloc(result->arena, 3 * sizeof *all);

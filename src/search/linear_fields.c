@@ -32,8 +32,8 @@ typedef struct {
 /* P - Q t and F - t P + Q t^2/2. */
 static void centres_of_mass(nh_stage_solver *solver, size_t centres, const centre *c)
 {
-    nh_dag *d = solver->r->model->dag;
-    nh_ex t = solver->r->model->system->t, half = nh_ratio(d, 1, 2);
+    nh_dag *d = solver->r->question->model->dag;
+    nh_ex t = solver->r->question->model->system->t, half = nh_ratio(d, 1, 2);
     for (size_t i = 0; i < centres && !nh_stage_solver_done(solver); i++) {
         nh_ex momentum = nh_sub(d, c[i].P, nh_mul(d, c[i].Q, t)), F = nh_sub(d, c[i].F, nh_mul(d, t, c[i].P));
         if (!nh_is_zero(d, c[i].Q)) nh_stage_solver_certify(solver, momentum, "a momentum and its force");
@@ -78,12 +78,12 @@ static nh_expr_set turns_about_centres(const nh_model *model, size_t centres, co
 static void first_angles(const nh_stage_solver *solver, bool *first)
 {
     const nh_analysis *r = solver->r;
-    const nh_model *model = r->model;
+    const nh_model *model = r->question->model;
     const nh_coordinate *c = model->system->coordinate;
     nh_ex *zeta = nh_alloc_array(model->n + 1, sizeof *zeta);
-    for (size_t k = 0; k < r->count; k++) {
+    for (size_t k = 0; k < r->list->count; k++) {
         size_t angles = 0, last = 0;
-        if (!nh_affine_field(model, r->found[k].phi, &r->options, zeta)) continue;
+        if (!nh_affine_field(model, r->list->found[k].phi, &r->question->options, zeta)) continue;
         for (size_t s = 0; s < model->m; s++)
             if (c[s].type == NH_ANGLE && !nh_is_zero(model->dag, zeta[s])) angles++, last = s;
         if (angles == 1 && nh_kind_of(model->dag, zeta[last]) == NH_NUMBER) first[last] = true;
@@ -96,7 +96,7 @@ static void first_angles(const nh_stage_solver *solver, bool *first)
 static void turns_in_space(nh_stage_solver *solver, nh_family_list *families, size_t others, const nh_family *other)
 {
     enum { three = 3 };
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     size_t *angle = nh_alloc_array(model->m + 1, sizeof *angle), angles = 0;
     bool *first = nh_alloc_array(model->m + 1, sizeof *first);
     for (size_t s = 0; s < model->m; s++)
@@ -142,15 +142,16 @@ static bool centre_of(const nh_model *model, nh_ex current, centre *out)
 static size_t moved_centres(nh_stage_solver *solver, nh_family_list *families, centre *out)
 {
     const nh_analysis *result = solver->r;
-    const nh_model *model = result->model;
+    const nh_current_list *list = result->list;
+    const nh_model *model = result->question->model;
     nh_expr_set linear_in_t = {0};
     size_t count = 0;
     nh_expr_set_put_all(&linear_in_t, model->m, model->p);
     nh_expr_set_put(&linear_in_t, model->system->t);
     nh_family momenta = nh_family_list_terms(families, &linear_in_t);
     nh_stage_solver_stage(solver, "canonical momenta", 1, &momenta);
-    for (size_t k = 0; k < result->count && count < model->m; k++)
-        count += result->found[k].proof.proved && centre_of(model, result->found[k].phi, &out[count]);
+    for (size_t k = 0; k < list->count && count < model->m; k++)
+        count += list->found[k].proof.proved && centre_of(model, list->found[k].phi, &out[count]);
     /* one that is a function of the energy and the others */
     for (size_t s = 0; s < model->m; s++)
         if (nh_is_zero(model->dag, nh_simplify_short(model->dag, nh_model_gamma(model, model->p[s]), 0)))
@@ -161,15 +162,15 @@ static size_t moved_centres(nh_stage_solver *solver, nh_family_list *families, c
 void nh_linear_fields_search(nh_stage_solver *solver)
 {
     nh_analysis *result = solver->r;
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     bool constant = true;
     if (model->k || model->chart->quasi) return;
     for (size_t i = 0; i < model->n * model->n; i++) constant = constant && is_constant(model, model->M[i]);
     if (constant && nh_linear_motion_is(solver)) return; /* the search of linear motion has all of them */
     nh_family_list families = {result->arena, model, &solver->words, NULL, 0};
     centre *c = nh_arena_alloc(result->arena, (2 * model->m + 1) * sizeof *c);
-    size_t centres =
-        constant ? moved_centres(solver, &families, c) : pulled_centres(model, (size_t)result->options.proof_terms, c);
+    size_t centres = constant ? moved_centres(solver, &families, c)
+                              : pulled_centres(model, (size_t)result->question->options.proof_terms, c);
     nh_expr_set momenta = {0}, positions = nh_expr_set_positions(&families, true, false),
                 others = constant ? (nh_expr_set){0} : turns_about_centres(model, centres, c);
     nh_expr_set_put_all(&momenta, model->m, model->p);

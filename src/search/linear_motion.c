@@ -65,13 +65,13 @@ static void find_blocks(linear *l)
     for (size_t i = 0; i < l->size; i++) l->block[i] = i;
     for (size_t i = 0; i < l->size; i++)
         for (size_t j = 0; j < l->size; j++)
-            if (!nh_is_zero(l->x->r->model->dag, l->entry[i + j * l->size])) join(l, i, j);
+            if (!nh_is_zero(l->x->r->question->model->dag, l->entry[i + j * l->size])) join(l, i, j);
 }
 
 /* Row i of A; false when z_i' is not linear, or depends on t otherwise. */
 static bool row(linear *l, size_t i, nh_ex rate)
 {
-    const nh_model *model = l->x->r->model;
+    const nh_model *model = l->x->r->question->model;
     nh_ex b = rate, zero = nh_int(model->dag, 0);
     if (nh_complexity(model->dag, rate) > longest) return false;
     for (size_t j = 0; j < l->size; j++) {
@@ -87,7 +87,7 @@ static bool row(linear *l, size_t i, nh_ex rate)
 
 static bool read_matrix(linear *l)
 {
-    const nh_model *model = l->x->r->model;
+    const nh_model *model = l->x->r->question->model;
     if (model->chart->implicit) return false;
     for (size_t i = 0; i < l->size; i++) l->z[i] = model->chart->symbol[1 + i];
     for (size_t i = 0; i < l->size; i++)
@@ -149,10 +149,11 @@ static bool follow(const nh_model *changed, double near, double *value, void *co
 static nh_ex named(linear *l, double value, bool turns)
 {
     const nh_analysis *r = l->x->r;
-    nh_dag *d = r->model->dag;
+    nh_dag *d = r->question->model->dag;
     if (value == 0) return nh_int(d, 0);
     l->turns = turns;
-    nh_ex e = nh_name_value(r->model, value, follow, l, r->options.recognise, (uint64_t)r->options.seed);
+    nh_ex e = nh_name_value(r->question->model, value, follow, l, r->question->options.recognise,
+                            (uint64_t)r->question->options.seed);
     return e ? e : nh_real(d, value);
 }
 
@@ -177,7 +178,7 @@ static void stage(linear *l, const char *name, size_t functions, const nh_ex *fu
 
 bool nh_linear_motion_velocity(const linear *l, size_t i, size_t *j)
 {
-    nh_dag *d = l->x->r->model->dag;
+    nh_dag *d = l->x->r->question->model->dag;
     size_t n = 0;
     for (size_t k = 0; k < l->size; k++) {
         nh_ex e = l->entry[i + k * l->size];
@@ -191,7 +192,7 @@ bool nh_linear_motion_velocity(const linear *l, size_t i, size_t *j)
 /* q'' = B q: the coordinates of the block, and in the same places their velocities; 0 where it is not so. */
 static size_t second_order(const linear *l, size_t *q, size_t *w)
 {
-    const nh_model *model = l->x->r->model;
+    const nh_model *model = l->x->r->question->model;
     size_t n = 0;
     bool is = l->drives == 1;
     for (size_t k = 0; k < l->count && is; k++) {
@@ -213,9 +214,9 @@ static size_t second_order(const linear *l, size_t *q, size_t *w)
 static bool wave_of_second_order(linear *l, nh_ex s, bool turns, const char *name)
 {
     nh_analysis *r = l->x->r;
-    nh_dag *d = r->model->dag;
+    nh_dag *d = r->question->model->dag;
     size_t *q = nh_alloc_array(2 * l->count + 1, sizeof *q), *w = q + l->count, n = second_order(l, q, w);
-    nh_ex *term = nh_arena_alloc(r->arena, (n + 1) * sizeof *term), angle = nh_mul(d, s, r->system->t);
+    nh_ex *term = nh_arena_alloc(r->arena, (n + 1) * sizeof *term), angle = nh_mul(d, s, r->question->system->t);
     for (size_t k = 0; k < n; k++) {
         nh_ex place = nh_mul(d, s, l->z[q[k]]), velocity = l->z[w[k]];
         term[k] = turns ? nh_add(d, nh_mul(d, velocity, nh_call(d, NH_COS, angle)),
@@ -246,11 +247,11 @@ static void sort_simplest_first(const nh_dag *d, size_t n, nh_ex *e)
 static void forms_with_rate(linear *l, size_t n, const nh_ex *z, const nh_ex *A, nh_ex c)
 {
     nh_analysis *r = l->x->r;
-    nh_dag *d = r->model->dag;
+    nh_dag *d = r->question->model->dag;
     nh_progress("quadratic forms that linear motion leaves invariant", nh_budget_part());
-    nh_invariant_question q = {d, n, r->system->parameters, z, A, c, r->model->parameter};
+    nh_invariant_question q = {d, n, r->question->system->parameters, z, A, c, r->question->model->parameter};
     nh_invariant_forms found = nh_invariant_forms_of(r->arena, &q);
-    nh_ex factor = nh_call(d, NH_EXP, nh_mul(d, c, r->system->t));
+    nh_ex factor = nh_call(d, NH_EXP, nh_mul(d, c, r->question->system->t));
     for (size_t k = 0; k < found.count; k++) found.form[k] = nh_mul(d, factor, found.form[k]);
     sort_simplest_first(d, found.count, found.form);
     nh_stage_solver_certify_each(l->x, found.count, found.form, "quadratic forms that linear motion leaves invariant");
@@ -260,7 +261,7 @@ static void forms_with_rate(linear *l, size_t n, const nh_ex *z, const nh_ex *A,
 /* Velocities come first, in which forms are to be simple. */
 static void quadratic_forms(linear *l)
 {
-    const nh_model *model = l->x->r->model;
+    const nh_model *model = l->x->r->question->model;
     nh_dag *d = model->dag;
     size_t n = l->count, *of = nh_alloc_array(n + 1, sizeof *of), at = 0;
     bool constant_force = false;
@@ -289,7 +290,7 @@ static void quadratic_forms(linear *l)
 /* Has every rate of the block a name? */
 static bool all_named(linear *l, const double *re, const double *im)
 {
-    nh_dag *d = l->x->r->model->dag;
+    nh_dag *d = l->x->r->question->model->dag;
     bool all = true;
     for (size_t k = 0; k < l->count && all; k++)
         if (im[k] >= 0) all = nh_is_short(d, named(l, re[k], false)) && nh_is_short(d, named(l, im[k], true));
@@ -319,10 +320,10 @@ static size_t multiplicity(const linear *l, const double *re, const double *im, 
 /* Waves, the sine first, times powers of t below `times`, these one after another; their number. */
 static size_t with_powers(linear *l, size_t times, size_t count, const nh_ex *wave, nh_ex *out)
 {
-    nh_dag *d = l->x->r->model->dag;
+    nh_dag *d = l->x->r->question->model->dag;
     size_t n = 0;
     for (size_t k = 0; k < times && k < most_powers; k++) {
-        nh_ex power = nh_powi(d, l->x->r->system->t, (int64_t)k);
+        nh_ex power = nh_powi(d, l->x->r->question->system->t, (int64_t)k);
         for (size_t i = count; i > 0; i--) out[n++] = nh_mul(d, wave[i - 1], power);
     }
     return n;
@@ -331,7 +332,7 @@ static size_t with_powers(linear *l, size_t times, size_t count, const nh_ex *wa
 /* The rates of the block; a rate that differs from zero by rounding is set to zero.  Returns the largest, or false. */
 static bool rates(const linear *l, double *re, double *im, double *largest)
 {
-    bool good = eigenvalues(l, l->x->r->model, re, im);
+    bool good = eigenvalues(l, l->x->r->question->model, re, im);
     *largest = 0;
     for (size_t k = 0; k < l->count && good; k++) *largest = fmax(*largest, hypot(re[k], im[k]));
     for (size_t k = 0; k < l->count && good; k++) {
@@ -344,7 +345,7 @@ static bool rates(const linear *l, double *re, double *im, double *largest)
 /* Those of the rate 0, which occurs so often. */
 static void polynomials(linear *l, size_t times)
 {
-    nh_ex one = nh_int(l->x->r->model->dag, 1), f[2 * most_powers];
+    nh_ex one = nh_int(l->x->r->question->model->dag, 1), f[2 * most_powers];
     size_t n = with_powers(l, times, 1, &one, f);
     if (nh_linear_motion_solutions(l, n, f) == times) return;
     if (n < 3) n = with_powers(l, 3, 1, &one, f);
@@ -355,12 +356,12 @@ static void polynomials(linear *l, size_t times)
 static void solve_rate(linear *l, double re, double im, size_t times, bool formulas)
 {
     static const char *const name = "states with linear equations, times exponentials and waves in t";
-    nh_dag *d = l->x->r->model->dag;
+    nh_dag *d = l->x->r->question->model->dag;
     nh_ex wave[2], decay = formulas ? 0 : named(l, re, false), turn = formulas ? 0 : named(l, im, true);
     bool many = l->forms && l->count > most_letters && (re == 0 || im == 0);
     if (many && wave_of_second_order(l, im != 0 ? turn : decay, im != 0, name)) return;
     size_t count = formulas ? nh_linear_motion_waves_of_two(l, im != 0, wave)
-                            : nh_linear_motion_waves(d, l->x->r->system->t, decay, turn, wave);
+                            : nh_linear_motion_waves(d, l->x->r->question->system->t, decay, turn, wave);
     nh_ex f[2 * most_powers];
     if (nh_linear_motion_solutions(l, with_powers(l, times, count, wave, f), f) == times * count) return;
     stage(l, name, count, wave);
@@ -411,7 +412,7 @@ void nh_linear_motion_clear(linear *l)
 
 static linear linear_of(nh_stage_solver *solver, bool *is)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     linear l = nh_linear_motion_create(solver, model->m + model->n, model->m);
     *is = read_matrix(&l);
     return l;

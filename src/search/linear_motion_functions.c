@@ -429,7 +429,8 @@ static void solve(const problem *p, nh_stage_solver *solver)
     size_t D = p->relations;
     nh_ex *c = nh_alloc_array(D * p->columns + 1, sizeof *c);
     bool good = true;
-    for (size_t i = 0; i < D && good; i++) good = solve_relation(p, i, &solver->r->options, c + i * p->columns);
+    for (size_t i = 0; i < D && good; i++)
+        good = solve_relation(p, i, &solver->r->question->options, c + i * p->columns);
     linear l = nh_linear_motion_create(solver, 2 * D, D);
     if (good) set_equations(p, c, &l);
     if (good && nh_linear_motion_drives(&l)) nh_linear_motion_solve(&l);
@@ -440,7 +441,7 @@ static void solve(const problem *p, nh_stage_solver *solver)
 /* Searches the currents of such functions.  False where there are none, but may be in words with functions of t. */
 static bool search_words(nh_stage_solver *solver, bool timed)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     problem p = {
         .o = model, .d = model->dag, .known = &solver->words, .equations = nh_jet_equations_create(model, false, true)};
     bool autonomous = !p.equations->time;
@@ -456,7 +457,7 @@ static bool search_words(nh_stage_solver *solver, bool timed)
 void nh_linear_motion_functions(nh_stage_solver *solver)
 {
     /* all currents of such equations are functions of those that are linear in (u, u'), with functions of t */
-    if (solver->r->model->chart->implicit || nh_counted_covers(&solver->counted, 1, true)) return;
+    if (solver->r->question->model->chart->implicit || nh_counted_covers(&solver->counted, 1, true)) return;
     nh_progress("linear equations that the coordinates hide", nh_budget_part());
     if (!search_words(solver, false)) search_words(solver, true);
 }

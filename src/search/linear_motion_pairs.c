@@ -35,10 +35,10 @@ static nh_ex either_root(nh_dag *d, nh_ex e)
 
 size_t nh_linear_motion_waves_of_two(const linear *l, bool turns, nh_ex out[2])
 {
-    nh_dag *d = l->x->r->model->dag;
+    nh_dag *d = l->x->r->question->model->dag;
     size_t i = l->of[0], j = l->of[1], n = l->size;
     const nh_ex *e = l->entry;
-    nh_ex t = l->x->r->system->t;
+    nh_ex t = l->x->r->question->system->t;
     nh_ex half = nh_mul(d, nh_ratio(d, 1, 2), nh_add(d, e[i + i * n], e[j + j * n]));
     nh_ex D = nh_sub(d, nh_mul(d, e[i + i * n], e[j + j * n]), nh_mul(d, e[i + j * n], e[j + i * n]));
     nh_ex square = nh_simplify_short(d, nh_sub(d, nh_mul(d, half, half), D), 0);
@@ -51,7 +51,7 @@ size_t nh_linear_motion_waves_of_two(const linear *l, bool turns, nh_ex out[2])
 
 bool nh_linear_motion_complex_pair(const linear *l, nh_complex_pair *out)
 {
-    const nh_model *model = l->x->r->model;
+    const nh_model *model = l->x->r->question->model;
     size_t n = 0, v[2], q[2];
     bool is = l->count == 4 && l->drives == 1;
     for (size_t k = 0; k < l->count && is; k++) {

@@ -31,8 +31,8 @@ static nh_ex function_of_time(nh_dag *d, nh_ex term, nh_ex t)
 
 static bool add_drive(linear *l, nh_ex term)
 {
-    nh_dag *d = l->x->r->model->dag;
-    nh_ex g = function_of_time(d, term, l->x->r->system->t);
+    nh_dag *d = l->x->r->question->model->dag;
+    nh_ex g = function_of_time(d, term, l->x->r->question->system->t);
     bool old = nh_is_zero(d, term);
     for (size_t i = 0; i < l->drives && !old; i++) old = g == l->drive[i];
     if (!old && l->drives == NH_LINEAR_MOTION_DRIVES) return false;
@@ -45,7 +45,7 @@ static bool add_drives(linear *l, nh_ex e)
 {
     nh_ex *part;
     bool fits = true;
-    size_t n = nh_terms_of(l->x->r->model->dag, e, &part);
+    size_t n = nh_terms_of(l->x->r->question->model->dag, e, &part);
     if (n == 1) fits = add_drive(l, e);
     for (size_t k = 1; k < n && fits; k++) fits = add_drives(l, part[k]);
     nh_free(part);
@@ -55,7 +55,7 @@ static bool add_drives(linear *l, nh_ex e)
 /* b of one row, from which the terms with z are taken, and the derivatives of its functions. */
 static bool drive(linear *l, nh_ex b)
 {
-    const nh_model *model = l->x->r->model;
+    const nh_model *model = l->x->r->question->model;
     size_t first = l->drives;
     bool fits = add_drives(l, nh_simplify_short(model->dag, b, 0));
     for (size_t i = first; i < l->drives && fits; i++)
@@ -67,7 +67,7 @@ bool nh_linear_motion_drives(linear *l)
 {
     bool fits = true;
     l->drives = 0;
-    l->drive[l->drives++] = nh_int(l->x->r->model->dag, 1);
+    l->drive[l->drives++] = nh_int(l->x->r->question->model->dag, 1);
     for (size_t i = 0; i < l->size && fits; i++) fits = drive(l, l->b[i]);
     return fits;
 }
@@ -78,7 +78,7 @@ bool nh_linear_motion_drives(linear *l)
  * l' + A^T l. */
 static nh_relation_space *space_of(const linear *l, size_t n, const nh_ex *function)
 {
-    const nh_model *model = l->x->r->model;
+    const nh_model *model = l->x->r->question->model;
     nh_dag *d = model->dag;
     size_t rows = l->count, columns = n * rows;
     nh_ex *entry = nh_alloc_array(rows * columns + 1, sizeof *entry);
@@ -104,7 +104,7 @@ static nh_relation_space *space_of(const linear *l, size_t n, const nh_ex *funct
 size_t nh_linear_motion_solutions(const linear *l, size_t n, const nh_ex *function)
 {
     nh_stage_solver *x = l->x;
-    const nh_model *model = x->r->model;
+    const nh_model *model = x->r->question->model;
     nh_dag *d = model->dag;
     size_t found = 0, columns = n * l->count;
     nh_relation_space *space = space_of(l, n, function);

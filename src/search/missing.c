@@ -10,6 +10,7 @@
 #include "search/currents.h"
 #include "search/missing_internal.h"
 #include "search/relations.h"
+#include "search/current_list.h"
 
 typedef nh_missing_search search;
 
@@ -17,18 +18,20 @@ typedef nh_missing_search search;
 
 size_t nh_missing_most_proved(const nh_analysis *result)
 {
-    return result->count + result->furthers + result->pieces + 1;
+    const nh_current_list *list = result->list;
+    return list->count + list->furthers + list->pieces + 1;
 }
 
 /* The proved currents, into phi.  A degree that the user asks for may cost more. */
 static nh_completeness_question question(const nh_analysis *result, nh_ex *phi)
 {
+    const nh_options *options = &result->question->options;
     enum { times_if_asked = 10 };
     nh_completeness_question q = {.current = phi,
                                   .all = result->search == NH_SEARCH_COMPLETE,
-                                  .degree = (size_t)result->options.degree,
-                                  .work = result->options.count_work * (result->options.degree ? times_if_asked : 1),
-                                  .threads = nh_threads(result->options.threads),
+                                  .degree = (size_t)options->degree,
+                                  .work = options->count_work * (options->degree ? times_if_asked : 1),
+                                  .threads = nh_threads(options->threads),
                                   .memory = result->counted};
     q.known = nh_counted_proved(result, phi, &q.general, &q.independent);
     q.regional = nh_counted_regional(result, phi + q.known, &q.regional_general);
@@ -46,7 +49,7 @@ static void count(nh_analysis *result, unsigned kinds, size_t until_missing)
     q.kinds = kinds;
     q.until_missing = until_missing;
     nh_progress("how many integrals there are", -1);
-    nh_completeness_of(result->model, &q, result->completeness);
+    nh_completeness_of(result->question->model, &q, result->completeness);
     if (nh_late()) memset(result->completeness, 0, sizeof result->completeness);
     nh_free(phi);
 }
@@ -63,7 +66,7 @@ static void generalize(nh_analysis *result)
 {
     nh_ex *phi = nh_alloc_array(nh_missing_most_proved(result), sizeof *phi);
     nh_completeness_question q = question(result, phi);
-    nh_completeness_generic(result->model, &q, result->completeness);
+    nh_completeness_generic(result->question->model, &q, result->completeness);
     if (nh_late()) memset(result->completeness, 0, sizeof result->completeness);
     nh_free(phi);
 }
@@ -142,12 +145,12 @@ static void construct(search *s)
 {
     enum { count = sizeof attempts / sizeof *attempts };
     nh_analysis *result = s->solver->r;
-    s->cyclic = nh_jet_equations_cyclic_rounds(result->model);
+    s->cyclic = nh_jet_equations_cyclic_rounds(result->question->model);
     for (size_t i = 0; i < count && !nh_late();) {
         bool found = try_attempt(s, &attempts[i]);
         i = found ? 0 : i + 1;
         if (found) s->stale = ~0u;
-        if (found && result->independent >= result->local_maximum) result->search = NH_SEARCH_COMPLETE;
+        if (found && result->list->independent >= result->question->local_maximum) result->search = NH_SEARCH_COMPLETE;
     }
 }
 
@@ -156,8 +159,9 @@ void nh_missing_find(nh_stage_solver *solver)
     nh_analysis *result = solver->r;
     search s = {.solver = solver};
     nh_current *aside;
-    if (result->options.construct <= 0 || nh_late()) return;
-    result->search = result->independent >= result->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
+    if (result->question->options.construct <= 0 || nh_late()) return;
+    result->search =
+        result->list->independent >= result->question->local_maximum ? NH_SEARCH_COMPLETE : NH_SEARCH_EXHAUSTED;
     count(result, 0, 1);
     if ((!is_missing(result) && !lacks_further(result)) || nh_late()) return;
     nh_progress("integrals that the count misses", -1);
@@ -170,14 +174,16 @@ void nh_missing_find(nh_stage_solver *solver)
 
 bool nh_missing_primitives(nh_stage_solver *solver)
 {
-    return solver->r->furthers && nh_primitives_search(solver, true, 1);
+    return solver->r->list->furthers && nh_primitives_search(solver, true, 1);
 }
 
 void nh_missing_name_further(nh_analysis *result)
 {
-    for (size_t k = 0; k < result->furthers; k++)
-        result->further[k].current.name = nh_currents_name(result, result->count + result->pieces + k + 1);
-    if (result->furthers) nh_relations_find(result);
+    const nh_current_list *list = result->list;
+    for (size_t k = 0; k < list->furthers; k++)
+        nh_current_list_describe(result, &list->further[k].current)->name =
+            nh_currents_name(result, list->count + list->pieces + k + 1);
+    if (list->furthers) nh_relations_find(result);
 }
 
 void nh_missing_count(nh_analysis *result, bool searched)
@@ -185,7 +191,7 @@ void nh_missing_count(nh_analysis *result, bool searched)
     if (!result->counted) result->counted = nh_count_memory_create();
     count(result, 0,
           searched ? 1 : 2); /* with an ansatz the report gives the number of integrals of degree two as well */
-    if (searched || result->options.degree) count_the_rest(result);
+    if (searched || result->question->options.degree) count_the_rest(result);
     if (!nh_late()) generalize(result);
     nh_count_memory_free(result->counted);
     result->counted = NULL;

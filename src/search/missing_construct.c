@@ -26,7 +26,8 @@ static bool lift_further(search *s, size_t degree, const nh_family *all)
     bool found = false;
     nh_solved x = nh_stage_solver_solve(s->solver, 1, all);
     if (x.nullspace && x.nullspace->dimension) {
-        nh_candidates *list = nh_echelon(r->model, x.fit, x.ansatz, x.nullspace, x.nullspace->dimension, &r->options);
+        nh_candidates *list =
+            nh_echelon(r->question->model, x.fit, x.ansatz, x.nullspace, x.nullspace->dimension, &r->question->options);
         for (size_t k = 0; k < list->count && !found; k++) {
             bool leads = false;
             for (size_t j = 0; j < list->candidate[k].count; j++) leads |= list->candidate[k].term[j] == all->term[0];
@@ -57,16 +58,16 @@ static nh_ex without_root(nh_dag *d, nh_ex e)
 /* Products of what is constant on the leaves of integrable constraints, 1 first: coefficients may depend on it. */
 static size_t constants_of_leaf(const nh_analysis *result, nh_ex out[most_constants])
 {
+    const nh_current_list *list = result->list;
     enum { highest = 2 };
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     size_t n = 0, first = 0;
     out[n++] = nh_int(model->dag, 1);
     for (size_t power = 0; power < highest; power++) {
         size_t last = n;
-        for (size_t k = 0; k < result->count; k++)
-            for (size_t j = first; j < last && n < most_constants && is_constant_of_leaf(model, &result->found[k]);
-                 j++) {
-                nh_ex product = nh_mul(model->dag, out[j], without_root(model->dag, result->found[k].phi));
+        for (size_t k = 0; k < list->count; k++)
+            for (size_t j = first; j < last && n < most_constants && is_constant_of_leaf(model, &list->found[k]); j++) {
+                nh_ex product = nh_mul(model->dag, out[j], without_root(model->dag, list->found[k].phi));
                 bool known = false;
                 for (size_t i = 0; i < n; i++) known |= out[i] == product;
                 if (!known) out[n++] = product;
@@ -79,7 +80,7 @@ static size_t constants_of_leaf(const nh_analysis *result, nh_ex out[most_consta
 /* By linear equations modulo primes: exactly, and for all parameters where they occur as polynomials. */
 static nh_lift_result lift_exactly(search *s, bool time, size_t terms, const nh_ex *term)
 {
-    nh_lift_result exact = nh_lift(s->solver->r->model, time, terms, term, s->work);
+    nh_lift_result exact = nh_lift(s->solver->r->question->model, time, terms, term, s->work);
     s->work -= exact.work;
     return exact;
 }
@@ -97,10 +98,10 @@ static bool keep_lifted(search *s, const nh_lift_result *exact, size_t terms, co
 static bool lift_by_doubles(search *s, size_t degree, const nh_family *all, bool further, const char *name)
 {
     enum { most_terms = 300 };
-    size_t before = s->solver->r->count;
+    size_t before = s->solver->r->list->count;
     if (all->terms > most_terms) return false;
     nh_stage_solver_stage(s->solver, name, 1, all);
-    return s->solver->r->count > before || (further && lift_further(s, degree, all));
+    return s->solver->r->list->count > before || (further && lift_further(s, degree, all));
 }
 
 /* FOUND, a function of the currents (which may be found again with every price of the words), or neither: simpler words
@@ -120,7 +121,7 @@ static lifted lift(search *s, size_t degree, bool time, const nh_constructed *c,
           *first_once = nh_arena_alloc(result->arena, constants * c->terms * sizeof *first_once);
     for (size_t j = 0; j < c->terms; j++)
         for (size_t k = 0; k < constants; k++) {
-            term[terms] = nh_mul(result->model->dag, c->term[j], constant[k]);
+            term[terms] = nh_mul(result->question->model->dag, c->term[j], constant[k]);
             if (j || !k) first_once[once++] = term[terms];
             terms++;
         }
@@ -156,7 +157,7 @@ static void refuse(search *s, const nh_constructed *c, bool further, bool known)
 
 static bool is_over(const search *s, bool further)
 {
-    return further ? nh_budget_spent() || nh_late() || s->solver->r->furthers == NH_MOST_FURTHER
+    return further ? nh_budget_spent() || nh_late() || s->solver->r->list->furthers == NH_MOST_FURTHER
                    : nh_stage_solver_done(s->solver);
 }
 
@@ -208,15 +209,15 @@ static bool construct_at(search *s, const nh_completeness *c, manner how, double
                                .rates = how.rates,
                                .degree = degree,
                                .price = price,
-                               .most_words = (size_t)r->options.words,
+                               .most_words = (size_t)r->question->options.words,
                                .work = s->work,
-                               .threads = nh_threads(r->options.threads),
+                               .threads = nh_threads(r->question->options.threads),
                                .current = phi};
     q.known = nh_counted_proved(r, phi, &general, &q.independent);
     size_t regional = nh_counted_regional(r, phi + q.known, &general);
     q.known += regional;
     q.independent += regional;
-    nh_construction *x = nh_construct(r->model, &q);
+    nh_construction *x = nh_construct(r->question->model, &q);
     now.work = x->work;
     now.solutions = x->solutions;
     now.whole = x->whole;
@@ -290,13 +291,13 @@ bool nh_missing_construct(search *s, const nh_completeness *c, bool further)
     /* parts of the work: for rare functions, and for integrals that the currents found determine */
     static const double part = 0.25, further_part = 0.08;
     double dearest = c->count.time ? 6 : 16, dearest_secular = 6,
-           work = s->solver->r->options.construct * (further ? further_part : 1);
+           work = s->solver->r->question->options.construct * (further ? further_part : 1);
     bool wanted = further || (c->counted && c->missing_at && c->missing && (c->settled || !c->count.time) &&
                               !adds_nothing(s->solver->r, c));
     if (!wanted) return false;
     size_t degree = further ? c->incomplete_at : c->missing_at;
     nh_ex atom[NH_NAMING_ATOMS];
-    const nh_model *model = s->solver->r->model;
+    const nh_model *model = s->solver->r->question->model;
     nh_construct_rates rates =
         nh_construct_rates_of(model, degree, c->count.time, nh_naming_atoms(model, atom), atom, part * work);
     manner any = {.further = further, .rates = &rates}, secular = any;

@@ -216,9 +216,10 @@ double nh_motion_series_value(const nh_motion_series_link *l, size_t j, double a
 
 void nh_motion_series_add(nh_analysis *result)
 {
+    nh_model *model = result->question->model;
     const nh_validation *v = result->validation;
     const nh_explicit_motion *m = result->motion;
-    size_t width = result->model->m + result->model->n;
+    size_t width = model->m + model->n;
     if (!m || !m->integrals || !v || !v->count) return;
     double *z = nh_arena_alloc(result->arena, (1 + width) * sizeof *z);
     z[0] = rounded(v->time[0], digits_of_states, 0);
@@ -232,6 +233,6 @@ void nh_motion_series_add(nh_analysis *result)
     high = rounded(high, digits_of_ends, 1);
     nh_explicit_motion *own = nh_arena_alloc(result->arena, sizeof *own);
     *own = *m;
-    own->series = nh_motion_series_from(result->arena, result->model, m, z, low, high);
+    own->series = nh_motion_series_from(result->arena, model, m, z, low, high);
     result->motion = own;
 }

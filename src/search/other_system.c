@@ -1,4 +1,5 @@
 #include "search/other_system.h"
+#include "search/current_list.h"
 
 #include <string.h>
 
@@ -24,17 +25,17 @@ nh_analysis *nh_other_system_open(const nh_analysis *first, nh_system *system, n
 {
     nh_error ignored;
     nh_error_clear(&ignored);
+    nh_analysis_question *question = nh_arena_alloc(first->arena, sizeof *question);
+    *question = (nh_analysis_question){
+        .options = first->question->options, .system = system, .derived = true, .left_out = first->question->left_out};
+    nh_chart *chart = nh_chart_create(system, choice, (uint64_t)question->options.seed, &ignored);
+    question->model = nh_model_create(system, chart, &ignored);
+    if (!question->model) return NULL;
+    question->local_maximum = 2 * question->model->m - question->model->k;
+    question->constraint = nh_distribution_of(question->model);
     nh_analysis *other = nh_arena_alloc(first->arena, sizeof *other);
-    *other = (nh_analysis){.arena = first->arena,
-                           .options = first->options,
-                           .system = system,
-                           .derived = true,
-                           .left_out = first->left_out};
-    nh_chart *chart = nh_chart_create(system, choice, (uint64_t)first->options.seed, &ignored);
-    other->model = nh_model_create(system, chart, &ignored);
-    if (!other->model) return NULL;
-    other->local_maximum = 2 * other->model->m - other->model->k;
-    other->constraint = nh_distribution_of(other->model);
+    *other = (nh_analysis){.arena = first->arena, .question = question};
+    nh_current_list_begin(other);
     return other;
 }
 
@@ -42,5 +43,5 @@ void nh_other_system_close(nh_analysis *other)
 {
     if (!other) return;
     nh_count_memory_free(other->counted);
-    nh_model_free(other->model);
+    nh_model_free(other->question->model);
 }

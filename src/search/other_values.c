@@ -93,7 +93,7 @@ bool nh_other_values_exchange(nh_current_checker *checker, nh_other_values *othe
         for (size_t k = 0; list && k < list->count && !exchanged; k++) {
             nh_candidate *c = &list->candidate[k];
             if (i == 1 && c->term[c->pivot] != pivot) continue;
-            if (current_of(result->model, other, c, &result->options, &phi))
+            if (current_of(result->question->model, other, c, &result->question->options, &phi))
                 exchanged = nh_currents_exchange_last(checker, phi);
         }
     }

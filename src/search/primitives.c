@@ -13,8 +13,8 @@
 static void with_velocities(nh_stage_solver *solver, const nh_family *currents)
 {
     nh_analysis *result = solver->r;
-    const nh_model *model = result->model;
-    solver->words = nh_dictionary_of(result->model);
+    const nh_model *model = result->question->model;
+    solver->words = nh_dictionary_of(result->question->model);
     const nh_dictionary *w = &solver->words;
     size_t n = 0, positions = 0, most = w->velocities + w->forms + w->frames + model->n + 1;
     nh_ex *linear = nh_arena_alloc(result->arena, most * sizeof *linear),
@@ -43,11 +43,12 @@ bool nh_primitives_search(nh_stage_solver *solver, bool time, size_t degree)
 {
     enum { most_primitives = 12, most_factors = 12 };
     nh_analysis *result = solver->r;
-    const nh_model *model = result->model;
+    const nh_current_list *list = result->list;
+    const nh_model *model = result->question->model;
     nh_dag *d = model->dag;
-    size_t words = most_primitives + model->m + 2, factors = 1, n = 0, before = result->count;
+    size_t words = most_primitives + model->m + 2, factors = 1, n = 0, before = list->count;
     nh_ex *word = nh_arena_alloc(result->arena, words * sizeof *word), factor[most_factors] = {nh_int(d, 1)},
-          *phi = nh_alloc_array(result->count + result->furthers + 1, sizeof *phi);
+          *phi = nh_alloc_array(list->count + list->furthers + 1, sizeof *phi);
     bool general;
     words = nh_closed_primitives(model, time, most_primitives, word);
     size_t independent, known = nh_counted_proved(result, phi, &general, &independent);
@@ -64,6 +65,6 @@ bool nh_primitives_search(nh_stage_solver *solver, bool time, size_t degree)
     nh_family all = {.kind = NH_TERMS, .terms = n, .term = term};
     solver->wide = true;
     nh_stage_solver_stage(solver, "currents found so far times coordinates and antiderivatives", 1, &all);
-    if (result->count == before && degree == 1) with_velocities(solver, &all);
-    return result->count > before;
+    if (list->count == before && degree == 1) with_velocities(solver, &all);
+    return list->count > before;
 }

@@ -26,12 +26,12 @@ static bool is_needed(const nh_model *model, const nh_ex *fixed, size_t paramete
  * and of the currents, and those that a current needs.  NULL: none. */
 static const nh_ex *special_values(const nh_analysis *result)
 {
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     NH_LIST(call);
     size_t n = model->system->parameters;
     bool *fixed = nh_alloc_array(n + 1, sizeof *fixed), any = false;
-    for (size_t j = 0; j < model->m + model->n + result->count; j++) {
-        const nh_current *f = j < model->m + model->n ? NULL : &result->found[j - model->m - model->n];
+    for (size_t j = 0; j < model->m + model->n + result->list->count; j++) {
+        const nh_current *f = j < model->m + model->n ? NULL : &result->list->found[j - model->m - model->n];
         nh_ex e = f ? f->phi : j < model->m ? model->rho[j] : model->a[j - model->m];
         size_t calls = nh_functions_in(model->dag, e, &call);
         for (size_t p = 0; p < n; p++) {
@@ -50,9 +50,11 @@ static size_t gather(const nh_stage_solver *solver, bool general, nh_ex **curren
 {
     const nh_analysis *r = solver->r;
     size_t n = 0;
-    nh_ex *list = *current = nh_arena_alloc(r->arena, (r->count + r->model->m + r->model->n + 1) * sizeof *list);
-    for (size_t k = 0; k < r->count; k++)
-        if (!r->found[k].series && (r->found[k].proof.all_parameters || !general)) list[n++] = r->found[k].phi;
+    nh_ex *list = *current =
+        nh_arena_alloc(r->arena, (r->list->count + r->question->model->m + r->question->model->n + 1) * sizeof *list);
+    for (size_t k = 0; k < r->list->count; k++)
+        if (!r->list->found[k].series && (r->list->found[k].proof.all_parameters || !general))
+            list[n++] = r->list->found[k].phi;
     return nh_quadratures_with_parts(r, solver->ranges, n, list);
 }
 
@@ -88,7 +90,7 @@ static int by_generality(const void *left, const void *right)
 
 static void harvest(nh_stage_solver *solver, size_t count, const nh_explicit_motion *const *tried)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     size_t n = 0, most = 1;
     for (size_t k = 0; k < count; k++) most += tried[k]->constants;
     constant *list = nh_alloc_array(most, sizeof *list);
@@ -114,7 +116,7 @@ static const nh_explicit_motion *try_all(nh_stage_solver *solver, nh_explicit_re
                                          const nh_explicit_motion *best, size_t *count,
                                          const nh_explicit_motion **tried)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     size_t states = 1 + model->m + model->n;
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
         request.rival = best && best->known == states ? best : NULL;
@@ -139,13 +141,14 @@ static const char *joined(nh_arena *arena, const char *all, const char *one)
  * everywhere. */
 static const char *region_of(nh_stage_solver *solver, const nh_explicit_motion *m)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_arena *arena = solver->r->arena;
     const char *all = NULL;
     for (size_t j = 0; j < m->constants; j++) {
         nh_ex positive[NH_MOST_REAL_WHERE], value = m->constant[j].value;
         size_t n = nh_real_where(model, value, positive);
-        all = joined(arena, all, nh_currents_region(solver->bench, value, solver->r->options.digits / 2, NULL));
+        all =
+            joined(arena, all, nh_currents_region(solver->bench, value, solver->r->question->options.digits / 2, NULL));
         for (size_t i = 0; i < n; i++) {
             char *text = nh_model_is_constant(model, positive[i]) ? NULL : nh_print_string(model->dag, positive[i]);
             if (text) all = joined(arena, all, nh_arena_printf(arena, "where %s > 0", text));
@@ -158,7 +161,7 @@ static const char *region_of(nh_stage_solver *solver, const nh_explicit_motion *
 void nh_quadratures_complete(nh_stage_solver *solver)
 {
     nh_analysis *result = solver->r;
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     size_t states = 1 + model->m + model->n;
     if (model->chart->implicit) return;
     nh_ex *current;
@@ -168,7 +171,7 @@ void nh_quadratures_complete(nh_stage_solver *solver)
                                    .currents = n,
                                    .current = current,
                                    .linear = true,
-                                   .options = &result->options,
+                                   .options = &result->question->options,
                                    .forms = &forms};
     bool open = !nh_counted_covers(&solver->counted, 1, false);
     for (size_t i = 0; i < states && !nh_budget_spent(); i++) {
@@ -183,13 +186,13 @@ void nh_quadratures_complete(nh_stage_solver *solver)
 void nh_quadratures_search(nh_stage_solver *solver)
 {
     nh_analysis *result = solver->r;
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     size_t states = 1 + model->m + model->n, count = 0;
     if (model->chart->implicit || nh_budget_spent()) return;
     nh_progress("integration of one equation after another", nh_budget_part());
     nh_ex *current, *special;
     nh_explicit_forms forms = {0};
-    nh_explicit_request request = {.points = solver->ranges, .options = &result->options, .forms = &forms},
+    nh_explicit_request request = {.points = solver->ranges, .options = &result->question->options, .forms = &forms},
                         valued = request;
     request.currents = gather(solver, true, &current);
     request.current = current;

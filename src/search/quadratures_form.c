@@ -78,7 +78,7 @@ static nh_ex shorter_roots(const nh_model *model, nh_ex e)
 static nh_ex shorter_logarithms(const nh_analysis *result, nh_ex e)
 {
     enum { most = 24 };
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     nh_dag *d = model->dag;
     NH_LIST(call);
     nh_ex by[most];
@@ -340,30 +340,30 @@ static nh_ex without_a_divisor(const nh_model *model, nh_ex e)
 /* A form of a constant without signs, its roots joined.  The time of a swing has signs. */
 static nh_ex in_other_roots(const nh_analysis *result, nh_ex e, bool general)
 {
-    const nh_model *model = result->model;
-    if (nh_named_function_has_elliptic(model->dag, e) &&
-        nh_prove_current(model, e, true, &result->options).all_parameters)
+    const nh_options *options = &result->question->options;
+    const nh_model *model = result->question->model;
+    if (nh_named_function_has_elliptic(model->dag, e) && nh_prove_current(model, e, true, options).all_parameters)
         return e;
     nh_ex joined = shorter_roots(model, joined_roots(model->dag, signs_as_roots(model->dag, e)));
     nh_ex rooted = nh_simplify_short(model->dag, roots_of_the_equations(model, joined), 0);
     bool shorter = nh_complexity(model->dag, rooted) < nh_complexity(model->dag, e);
     if (e == rooted || !general) return e;
-    if (!shorter && nh_prove_current(model, e, true, &result->options).all_parameters) return e;
-    return nh_prove_current(model, rooted, true, &result->options).all_parameters ? rooted : e;
+    if (!shorter && nh_prove_current(model, e, true, options).all_parameters) return e;
+    return nh_prove_current(model, rooted, true, options).all_parameters ? rooted : e;
 }
 
 nh_ex nh_quadratures_form(const nh_analysis *result, nh_ex value, bool general)
 {
     enum { most_divisors = 3 };
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     nh_dag *d = model->dag;
     nh_ex e = shorter_roots(model, nh_simplify_short(d, shorter_logarithms(result, shorter_roots(model, value)), 0));
     nh_ex stable = areas_of_logarithms(model, better_area_functions(model, e));
-    if (stable != e && nh_prove_current(model, stable, true, &result->options).all_parameters) e = stable;
+    if (stable != e && nh_prove_current(model, stable, true, &result->question->options).all_parameters) e = stable;
     e = in_other_roots(result, e, general);
     nh_ex whole = e;
     for (int k = 0; k < most_divisors; k++) whole = without_a_divisor(model, whole);
     if (whole == e) return e;
-    nh_proof proof = nh_prove_current(model, whole, general, &result->options);
+    nh_proof proof = nh_prove_current(model, whole, general, &result->question->options);
     return (general ? proof.all_parameters : proof.proved) ? whole : e;
 }

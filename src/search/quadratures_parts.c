@@ -65,11 +65,11 @@ static size_t parts_of_energy(const nh_model *model, nh_ex part[most_states])
 
 size_t nh_quadratures_with_parts(const nh_analysis *result, const nh_points *points, size_t n, nh_ex *current)
 {
-    const nh_model *model = result->model;
+    const nh_model *model = result->question->model;
     nh_ex part[most_states], energy = 0;
     size_t at = 0, parts, kept = 0;
-    for (size_t k = 0; k < result->count; k++)
-        if (result->found[k].energy) energy = result->found[k].phi;
+    for (size_t k = 0; k < result->list->count; k++)
+        if (result->list->found[k].energy) energy = result->list->found[k].phi;
     while (at < n && current[at] != energy) at++;
     if (at == n || !(parts = parts_of_energy(model, part))) return n;
     nh_ex *list = nh_alloc_array(n + parts, sizeof *list);
@@ -78,8 +78,8 @@ size_t nh_quadratures_with_parts(const nh_analysis *result, const nh_points *poi
         if (j != at) list[kept++] = current[j];
     for (size_t j = 0; j < parts; j++) {
         list[kept] = part[j];
-        nh_independence_test(model, points, kept + 1, list, NULL, result->options.sure, result->options.doubt, kind,
-                             NULL);
+        nh_independence_test(model, points, kept + 1, list, NULL, result->question->options.sure,
+                             result->question->options.doubt, kind, NULL);
         kept += kind[kept] == NH_INDEPENDENT;
     }
     bool changed = kept >= n;

@@ -63,9 +63,9 @@ static size_t rates(const nh_model *model, const rate_context *c, double *re, do
     size_t n = c->base->columns, count = 0, *seen = nh_alloc_array(most + 1, sizeof *seen);
     double largest = 0, *A = nh_alloc_array(points->count * n + 1, sizeof *A),
            *B = nh_alloc_array(points->count * n + 1, sizeof *B);
-    nh_nullspace_options limits = nh_nullspace_options_from(&c->x->r->options);
+    nh_nullspace_options limits = nh_nullspace_options_from(&c->x->r->question->options);
     nh_rows_pencil(model, c->base, nh_model_gamma(model, c->q), points, A, B);
-    nh_pencil *p = nh_pencil_solve(points->count, n, A, B, &limits, c->x->r->options.split, &ignored);
+    nh_pencil *p = nh_pencil_solve(points->count, n, A, B, &limits, c->x->r->question->options.split, &ignored);
     for (size_t k = 0; p && k < p->dimension; k++) largest = fmax(largest, hypot(p->re[k], p->im[k]));
     for (size_t k = 0; p && k < p->dimension && count < most; k++) {
         double x = p->re[k], y = p->im[k];
@@ -123,8 +123,8 @@ static const double few_digits = 1000, /* times the tolerance for recognising nu
 
 static nh_ex number_of(const rate_context *c, double value)
 {
-    nh_dag *d = c->x->r->model->dag;
-    double exact = c->x->r->options.recognise;
+    nh_dag *d = c->x->r->question->model->dag;
+    double exact = c->x->r->question->options.recognise;
     nh_ex e;
     if (nh_recognise_number(d, value, exact, &e) || nh_recognise_number(d, value, few_digits * exact, &e)) return e;
     return unusually_near(d, value, few_digits * exact);
@@ -134,13 +134,14 @@ static nh_ex number_of(const rate_context *c, double value)
 static nh_ex named(rate_context *c, double value)
 {
     const nh_analysis *r = c->x->r;
-    double exact = r->options.recognise;
+    const nh_options *options = &r->question->options;
+    double exact = options->recognise;
     nh_ex e = 0;
     for (int fold = 0; fold < folds(c) && !e; fold++) {
-        e = nh_name_value(r->model, unfolded(value, fold), follow, c, exact, (uint64_t)r->options.seed);
+        e = nh_name_value(r->question->model, unfolded(value, fold), follow, c, exact, (uint64_t)options->seed);
         if (!e)
-            e = nh_name_value(r->model, unfolded(value, fold), follow, c, few_digits * exact,
-                              (uint64_t)r->options.seed);
+            e = nh_name_value(r->question->model, unfolded(value, fold), follow, c, few_digits * exact,
+                              (uint64_t)options->seed);
     }
     return e ? e : number_of(c, value);
 }
@@ -150,7 +151,7 @@ static nh_ex rate_of(rate_context *c, double value, bool imaginary, int how)
     c->imaginary = imaginary;
     if (value == 0) return 0; /* node 0 is the number 0 */
     nh_ex e = how == NAMED ? named(c, value) : how == AS_NUMBERS ? number_of(c, value) : 0;
-    return e ? e : nh_real(c->x->r->model->dag, value);
+    return e ? e : nh_real(c->x->r->question->model->dag, value);
 }
 
 /* The rates of one pencil, with the family that is multiplied by their waves. */
@@ -167,7 +168,7 @@ typedef struct {
 static size_t wave_terms(waves *w, nh_ex *out)
 {
     rate_context *c = &w->context;
-    nh_dag *d = c->x->r->model->dag;
+    nh_dag *d = c->x->r->question->model->dag;
     size_t count = 0;
     for (size_t k = 0; k < w->count; k++) {
         double re = w->re[k], im = w->im[k];
@@ -225,7 +226,8 @@ static bool as_good(promise a, promise b)
 static bool plain(const rate_context *c, double value)
 {
     nh_ex e;
-    return nh_recognise_number(c->x->r->model->dag, value, c->x->r->options.recognise, &e) || !number_of(c, value);
+    return nh_recognise_number(c->x->r->question->model->dag, value, c->x->r->question->options.recognise, &e) ||
+           !number_of(c, value);
 }
 
 /* Each rate by itself in the form that seems to give most currents; rates that give none are left out. */
@@ -255,7 +257,7 @@ static void choose_forms(waves *w)
 /* Is the function g of t a wave of frequency nu, g'' = -nu^2 g? */
 static bool is_wave(const nh_stage_solver *solver, nh_ex g, double nu)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     const nh_points *p = solver->ranges;
     nh_ex t = model->system->t, pair[2] = {g, nh_diff(model->dag, nh_diff(model->dag, g, t), t)};
     double *value = nh_alloc_array(2 * p->count + 1, sizeof *value), rest = 0, size = 0;
@@ -272,7 +274,7 @@ static bool is_wave(const nh_stage_solver *solver, nh_ex g, double nu)
  * the others. */
 static size_t without_driven(const nh_stage_solver *solver, nh_ex q, size_t n, double *re, double *im)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     size_t kept = 0;
     for (size_t k = 0; k < n; k++) {
         bool driven = false;
@@ -306,17 +308,17 @@ static void one_by_one(waves *w, const char *text)
 static bool pencil_of(nh_stage_solver *solver, nh_ex q, const char *name, const nh_family *base, bool linear)
 {
     nh_analysis *r = solver->r;
+    nh_model *model = r->question->model;
     nh_error ignored;
     nh_error_clear(&ignored);
-    size_t before = r->independent;
+    size_t before = r->list->independent;
     nh_family family[2];
-    if (nh_counted_superfluous(&solver->counted, 1, base, nh_depends(r->model->dag, q, r->model->system->t)))
-        return false;
-    nh_ansatz *a = nh_ansatz_create(r->model, solver->ranges, 1, base, solver->ranges->count / 2 - 2, &ignored);
+    if (nh_counted_superfluous(&solver->counted, 1, base, nh_depends(model->dag, q, model->system->t))) return false;
+    nh_ansatz *a = nh_ansatz_create(model, solver->ranges, 1, base, solver->ranges->count / 2 - 2, &ignored);
     if (!a) return false;
     waves w = {.context = {.x = solver, .base = a, .q = q}, .base = base, .linear = linear};
     for (size_t i = 0; i < solver->words.waves; i++) w.context.periodic |= solver->words.wave[i] == q;
-    w.count = without_driven(solver, q, rates(r->model, &w.context, w.re, w.im, most_values), w.re, w.im);
+    w.count = without_driven(solver, q, rates(model, &w.context, w.re, w.im, most_values), w.re, w.im);
     if (w.count > most_rates) w.count = most_rates;
     choose_forms(&w);
     if (w.count) {
@@ -326,15 +328,16 @@ static bool pencil_of(nh_stage_solver *solver, nh_ex q, const char *name, const 
         if (w.count > 1) one_by_one(&w, text);
     }
     nh_ansatz_free(a);
-    return r->independent > before;
+    return r->list->independent > before;
 }
 
 static bool pencil_stage(nh_stage_solver *solver, nh_ex q, const char *name, nh_pencil_base base)
 {
     nh_analysis *r = solver->r;
     /* elsewhere 1 and q are a pair that rounding splits */
-    bool timely = q == r->model->system->t && base == NH_PENCIL_LINEAR;
-    nh_family family = nh_stage_pencil_base(r->arena, r->model, &solver->words, timely ? NH_PENCIL_TIME : base);
+    bool timely = q == r->question->model->system->t && base == NH_PENCIL_LINEAR;
+    nh_family family =
+        nh_stage_pencil_base(r->arena, r->question->model, &solver->words, timely ? NH_PENCIL_TIME : base);
     return pencil_of(solver, q, name, &family, base == NH_PENCIL_LINEAR);
 }
 
@@ -359,9 +362,9 @@ static bool linear_rates(nh_stage_solver *solver, nh_ex q, const char *name)
    the wheels' angles. */
 static void volume_rate(nh_stage_solver *solver)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     if ((model->k == 0 && !model->system->has_forces) || nh_stage_solver_done(solver)) return;
-    nh_ex Q = nh_volume_rate_potential(model, &solver->words, (size_t)solver->r->options.proof_terms);
+    nh_ex Q = nh_volume_rate_potential(model, &solver->words, (size_t)solver->r->question->options.proof_terms);
     if (Q && nh_kind_of(model->dag, Q) != NH_SYMBOL) linear_rates(solver, Q, "the logarithm of the invariant density");
 }
 
@@ -374,7 +377,7 @@ static void rates_of(nh_stage_solver *solver, nh_ex q, const char *name, size_t 
  * and their products with positions, and where coordinates are curved the momenta. */
 static void potential_rate(nh_stage_solver *solver)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_ex *zero = nh_arena_alloc(solver->r->arena, (model->m + 1) * sizeof *zero),
           *v = nh_arena_alloc(solver->r->arena, (model->m + 1) * sizeof *v);
     if (model->k == 0 || nh_stage_solver_done(solver)) return;
@@ -390,7 +393,7 @@ static void potential_rate(nh_stage_solver *solver)
 static void rates_in_time(nh_stage_solver *solver)
 {
     static const nh_pencil_base larger[] = {NH_PENCIL_QUADRATIC, NH_PENCIL_CUBIC, NH_PENCIL_FRAME, NH_PENCIL_PRODUCTS};
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_ex t = model->system->t;
     bool found = linear_rates(solver, t, "t"), changes = nh_depends(model->dag, model->Lbar, t);
     if (changes) rates_of(solver, t, "t", 1, (nh_pencil_base[]){NH_PENCIL_ENERGY});
@@ -403,7 +406,7 @@ static void rates_in_time(nh_stage_solver *solver)
 static void rates_along(nh_stage_solver *solver, const nh_coordinate *c)
 {
     static const nh_pencil_base larger[] = {NH_PENCIL_FRAME, NH_PENCIL_PRODUCTS};
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     const char *name = nh_name_of(model->dag, c->q);
     bool found = linear_rates(solver, c->q, name);
     if (model->system->has_forces) rates_of(solver, c->q, name, 1, (nh_pencil_base[]){NH_PENCIL_SQUARES});
@@ -416,7 +419,7 @@ static void rates_along(nh_stage_solver *solver, const nh_coordinate *c)
 
 void nh_rates_search(nh_stage_solver *solver)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     rates_in_time(solver);
     for (size_t i = 0; i < model->m; i++) rates_along(solver, &model->system->coordinate[i]);
     volume_rate(solver);

@@ -43,7 +43,7 @@ static void put_all(problem *p, size_t n, const nh_ex *e)
 static void put_squares(problem *p, size_t n, const nh_ex *e)
 {
     for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++) put(p, nh_mul(p->x->r->model->dag, e[i], e[j]));
+        for (size_t j = 0; j <= i; j++) put(p, nh_mul(p->x->r->question->model->dag, e[i], e[j]));
 }
 
 /* ---- from functions to currents ---- */
@@ -59,7 +59,7 @@ static nh_ex shown(const nh_model *model, nh_ex word)
 /* The current as doubles can use it: without coefficients of the series below rounding. */
 static nh_ex expression_of(const problem *p, const nh_series_space *space, size_t k, nh_series *series)
 {
-    nh_dag *d = p->x->r->model->dag;
+    nh_dag *d = p->x->r->question->model->dag;
     size_t rows = space->degree + 1;
     const double *c = space->coefficient + k * space->words * rows;
     double largest = 0;
@@ -75,7 +75,7 @@ static nh_ex expression_of(const problem *p, const nh_series_space *space, size_
         }
         if (nh_is_zero(d, f)) continue;
         memcpy(series->coefficient + series->words * rows, c + i * rows, rows * sizeof *c);
-        series->word[series->words++] = shown(p->x->r->model, space->word[i]);
+        series->word[series->words++] = shown(p->x->r->question->model, space->word[i]);
         phi = nh_add(d, phi, nh_mul(d, space->word[i], f));
     }
     nh_free(T);
@@ -87,9 +87,9 @@ static const char *meaning_of(const problem *p, const nh_series_space *space, si
 {
     nh_analysis *r = p->x->r;
     if (space->alone[k] == space->words) return "";
-    char *word = nh_print_string(r->model->dag, space->word[space->alone[k]]);
+    char *word = nh_print_string(r->question->model->dag, space->word[space->alone[k]]);
     const char *text =
-        nh_arena_printf(r->arena, "%s at %s = %.6g", word, nh_name_of(r->model->dag, p->variable), space->at);
+        nh_arena_printf(r->arena, "%s at %s = %.6g", word, nh_name_of(r->question->model->dag, p->variable), space->at);
     nh_free(word);
     return text;
 }
@@ -98,7 +98,7 @@ static size_t keep(problem *p, const nh_series_space *space)
 {
     nh_analysis *result = p->x->r;
     size_t n = space->words * (space->degree + 1), added = 0;
-    for (size_t k = 0; k < space->count && result->independent < result->local_maximum; k++) {
+    for (size_t k = 0; k < space->count && result->list->independent < result->question->local_maximum; k++) {
         nh_series *series = nh_arena_alloc(result->arena, sizeof *series);
         *series = (nh_series){.variable = p->variable,
                               .low = space->low,
@@ -107,7 +107,7 @@ static size_t keep(problem *p, const nh_series_space *space)
                               .coefficient = nh_arena_alloc(result->arena, n * sizeof(double)),
                               .stride = space->degree + 1,
                               .equation = p->equation};
-        const char *meaning = p->variable == result->system->t ? meaning_of(p, space, k) : NULL;
+        const char *meaning = p->variable == result->question->system->t ? meaning_of(p, space, k) : NULL;
         added +=
             nh_currents_add_series(p->x->bench, expression_of(p, space, k, series), series, space->digits[k], meaning);
     }
@@ -121,12 +121,13 @@ static bool fresh(const problem *p, const nh_series_search *s)
     const nh_analysis *result = p->x->r;
     nh_points *points = nh_series_points(s, near_points);
     if (!points) return true;
-    size_t known = result->count, n = known + nh_series_count(s);
+    size_t known = result->list->count, n = known + nh_series_count(s);
     nh_ex *phi = nh_alloc_array(n + 1, sizeof *phi);
     nh_independence *kind = nh_alloc_array(n + 1, sizeof *kind);
     bool news = false;
-    for (size_t k = 0; k < n; k++) phi[k] = k < known ? result->found[k].phi : nh_series_near(s, k - known);
-    nh_independence_test(result->model, points, n, phi, NULL, result->options.sure, result->options.doubt, kind, NULL);
+    for (size_t k = 0; k < n; k++) phi[k] = k < known ? result->list->found[k].phi : nh_series_near(s, k - known);
+    nh_independence_test(result->question->model, points, n, phi, NULL, result->question->options.sure,
+                         result->question->options.doubt, kind, NULL);
     for (size_t k = known; k < n; k++) news |= kind[k] == NH_INDEPENDENT || kind[k] == NH_DOUBTFUL;
     nh_free(kind);
     nh_free(phi);
@@ -137,10 +138,10 @@ static bool fresh(const problem *p, const nh_series_search *s)
 /* Without an interval from the user a series in t extends to the end of the motions. */
 static double end_of_time(const nh_stage_solver *solver)
 {
-    const nh_system *system = solver->r->system;
+    const nh_system *system = solver->r->question->system;
     for (size_t i = 0; i < system->intervals; i++)
         if (system->interval[i].symbol == system->t) return -INFINITY;
-    return solver->r->options.until;
+    return solver->r->question->options.until;
 }
 
 /* Coefficients that have names, proved before the series are tried: by equations of second, then of third order. */
@@ -151,14 +152,14 @@ static void named(problem *p, const char *what)
     nh_family *family = nh_arena_alloc(result->arena, sizeof *family);
     nh_family words = {.kind = NH_TERMS, .terms = p->words, .term = p->word};
     p->equation = NULL;
-    if (p->full || result->options.named == 0 || nh_stage_solver_done(p->x)) return;
-    if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == result->system->t)) return;
-    size_t n = nh_named_coefficients(result->model, p->variable, p->words, p->word, p->x->words.forms, p->x->words.form,
-                                     result->arena, phi, &p->equation);
+    if (p->full || result->question->options.named == 0 || nh_stage_solver_done(p->x)) return;
+    if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == result->question->system->t)) return;
+    size_t n = nh_named_coefficients(result->question->model, p->variable, p->words, p->word, p->x->words.forms,
+                                     p->x->words.form, result->arena, phi, &p->equation);
     if (!n) return;
     *family = (nh_family){.kind = NH_TERMS, .terms = n, .term = phi};
     const char *name = nh_arena_printf(result->arena, "%s with coefficients that are named functions of %s", what,
-                                       nh_name_of(result->model->dag, p->variable));
+                                       nh_name_of(result->question->model->dag, p->variable));
     nh_stage_solver_stage(p->x, name, 1, family);
     /* in doubles a function that grows by many powers of ten hides behind one that does not */
     for (size_t k = 0; k < n && !nh_stage_solver_done(p->x); k++) nh_stage_solver_certify(p->x, phi[k], name);
@@ -167,16 +168,17 @@ static void named(problem *p, const char *what)
 static void series(problem *p, const char *what)
 {
     nh_analysis *result = p->x->r;
+    nh_model *model = result->question->model;
     char name[120];
     double start = nh_clock();
     nh_series_space space;
     nh_family words = {.kind = NH_TERMS, .terms = p->words, .term = p->word};
     if (!p->x->series || p->full || nh_stage_solver_done(p->x)) return;
-    if (nh_declared_unspecified(result->model->dag)) return; /* a series would be that of its stand-in */
-    if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == result->system->t)) return;
+    if (nh_declared_unspecified(model->dag)) return; /* a series would be that of its stand-in */
+    if (nh_counted_superfluous(&p->x->counted, 1, &words, p->variable == result->question->system->t)) return;
     snprintf(name, sizeof name, "%s with coefficients that are series in %s", what,
-             nh_name_of(result->model->dag, p->variable));
-    nh_series_search *s = nh_series_open(result->model, p->variable, p->words, p->word, &result->options);
+             nh_name_of(model->dag, p->variable));
+    nh_series_search *s = nh_series_open(model, p->variable, p->words, p->word, &result->question->options);
     bool news = nh_series_count(s) && fresh(p, s);
     nh_stage_record *note = nh_stage_solver_note(p->x, name);
     note->columns = nh_series_words(s);
@@ -186,7 +188,7 @@ static void series(problem *p, const char *what)
         bool reached = nh_series_extend(s, -INFINITY, result->arena, &space);
         /* to the end of the motions, if that is not too far */
         nh_series_space longer;
-        double end = p->variable == result->system->t ? end_of_time(p->x) : -INFINITY;
+        double end = p->variable == result->question->system->t ? end_of_time(p->x) : -INFINITY;
         if (reached && end > space.high && nh_series_extend(s, end, result->arena, &longer)) space = longer;
         if (reached) note->found = keep(p, &space);
         else note->undecided = true;
@@ -199,7 +201,7 @@ static void series(problem *p, const char *what)
 static void closed_forms(problem *p)
 {
     nh_stage_solver *solver = p->x;
-    nh_dag *d = solver->r->model->dag;
+    nh_dag *d = solver->r->question->model->dag;
     nh_ex *f = nh_arena_alloc(solver->r->arena, (6 + solver->words.atoms) * sizeof *f),
           *word = nh_arena_alloc(solver->r->arena, (p->words + 1) * sizeof *word);
     size_t n = 0;
@@ -224,7 +226,7 @@ static void closed_forms(problem *p)
  * chosen. */
 static void linear_in(nh_stage_solver *solver, nh_ex q)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     problem p = {.x = solver, .variable = q};
     put_all(&p, model->n, model->chart->w);
     if (solver->words.shapes > 1) put_all(&p, model->m, model->rho);
@@ -239,7 +241,7 @@ static void linear_in(nh_stage_solver *solver, nh_ex q)
  * jump of the equations of motion is no current behind it. */
 static void in_one(nh_stage_solver *solver)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     if (solver->words.shapes != 1 || model->chart->implicit || nh_counted_has_walls(model)) return;
     linear_in(solver, solver->words.shape[0]);
     problem p = {.x = solver, .variable = solver->words.shape[0]};
@@ -259,7 +261,8 @@ static void of_positions(nh_stage_solver *solver)
     if (!count->counted || count->missing_at != 1 || !count->missing) return;
     enum { most_currents = 2 };
     const nh_analysis *result = solver->r;
-    const nh_model *model = result->model;
+    const nh_current_list *list = result->list;
+    const nh_model *model = result->question->model;
     nh_ex q = solver->words.shapes == 1 ? solver->words.shape[0] : 0;
     problem p = {.x = solver, .variable = q};
     size_t currents = 0;
@@ -267,9 +270,9 @@ static void of_positions(nh_stage_solver *solver)
         nh_stage_solver_done(solver))
         return;
     put_all(&p, model->n, model->chart->w);
-    for (size_t k = 0; k < result->count && currents < most_currents; k++) {
-        nh_ex c = result->found[k].phi;
-        bool linear = result->found[k].proof.proved && !nh_depends(model->dag, c, model->system->t) &&
+    for (size_t k = 0; k < list->count && currents < most_currents; k++) {
+        nh_ex c = list->found[k].phi;
+        bool linear = list->found[k].proof.proved && !nh_depends(model->dag, c, model->system->t) &&
                       nh_counted_degree_of(model, c) == 1;
         for (size_t s = 0; s < model->m; s++) {
             nh_ex position = model->system->coordinate[s].q;
@@ -286,7 +289,7 @@ static void of_positions(nh_stage_solver *solver)
    wave's phase. */
 static void affine_in(nh_stage_solver *solver, nh_ex q)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     problem p = {.x = solver, .variable = q};
     put_all(&p, model->n, model->chart->w);
     put_all(&p, solver->words.positions, solver->words.position);
@@ -296,8 +299,8 @@ static void affine_in(nh_stage_solver *solver, nh_ex q)
 static void in_each(nh_stage_solver *solver)
 {
     enum { most_shapes = 3 };
-    if (solver->words.shapes < 2 || solver->words.shapes > most_shapes || solver->r->model->chart->implicit ||
-        nh_counted_has_walls(solver->r->model))
+    if (solver->words.shapes < 2 || solver->words.shapes > most_shapes || solver->r->question->model->chart->implicit ||
+        nh_counted_has_walls(solver->r->question->model))
         return;
     for (size_t i = 0; i < solver->words.shapes; i++) linear_in(solver, solver->words.shape[i]);
     for (size_t i = 0; i < solver->words.shapes; i++) affine_in(solver, solver->words.shape[i]);
@@ -316,7 +319,7 @@ static bool driven(const nh_model *model)
  * squares, times first harmonics. */
 static void put_polar(problem *p)
 {
-    const nh_model *model = p->x->r->model;
+    const nh_model *model = p->x->r->question->model;
     const nh_dictionary *w = &p->x->words;
     nh_dag *d = model->dag;
     p->words = 0;
@@ -337,7 +340,7 @@ static void put_polar(problem *p)
 /* Functions of t: where the equations are linear these give all currents. */
 static void in_time(nh_stage_solver *solver)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_ex one = nh_int(model->dag, 1);
     if (nh_stage_solver_done(solver) || model->chart->implicit || !driven(model) || nh_counted_has_walls(model)) return;
     problem p = {.x = solver, .variable = model->system->t};

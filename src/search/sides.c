@@ -114,27 +114,29 @@ static void take(nh_stage_solver *solver, const sides *x, const nh_current *f)
 /* First those that are polynomials, and functions of the others there: the others may have a root of a sign. */
 static void take_all(nh_stage_solver *solver, const sides *x, const nh_analysis *found)
 {
-    for (size_t k = 0; k < found->furthers; k++) take(solver, x, &found->further[k].current);
-    for (size_t k = 0; k < found->count; k++) take(solver, x, &found->found[k]);
+    const nh_current_list *list = found->list;
+    for (size_t k = 0; k < list->furthers; k++) take(solver, x, &list->further[k].current);
+    for (size_t k = 0; k < list->count; k++) take(solver, x, &list->found[k]);
 }
 
 void nh_sides_search(nh_stage_solver *solver, nh_whole_search *search)
 {
     nh_analysis *result = solver->r;
-    sides x = {.o = result->model, .d = result->model->dag, .good = true};
+    sides x = {.o = result->question->model, .d = result->question->model->dag, .good = true};
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_system *system = without_kinks(&x, result->arena, result->system);
+    nh_system *system = without_kinks(&x, result->arena, result->question->system);
     if (!x.count || !x.good || nh_late()) return;
     nh_progress("the equations on one side of a kink", -1);
-    nh_chart_choice choice = result->model->chart->quasi ? NH_CHART_AUTO : NH_CHART_COORDINATES;
+    nh_chart_choice choice = result->question->model->chart->quasi ? NH_CHART_AUTO : NH_CHART_COORDINATES;
     nh_analysis *side = nh_other_system_open(result, system, choice);
     if (!side) return;
-    bool same = side->model->n == result->model->n;
-    for (size_t i = 0; i < result->model->n && same; i++) same = side->model->chart->w[i] == result->model->chart->w[i];
+    bool same = side->question->model->n == result->question->model->n;
+    for (size_t i = 0; i < result->question->model->n && same; i++)
+        same = side->question->model->chart->w[i] == result->question->model->chart->w[i];
     if (same && search(side, &ignored)) {
         if (!nh_late()) nh_missing_count(side, true);
-        nh_budget_begin(result->options.work);
+        nh_budget_begin(result->question->options.work);
         take_all(solver, &x, side);
         nh_budget_begin(INFINITY);
         result->used |= side->used;

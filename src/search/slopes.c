@@ -77,7 +77,7 @@ static bool integral(const plane *y, nh_ex f, nh_ex *F)
                          .x = y->p,
                          .constants = n + 1,
                          .constant = constant,
-                         .max_terms = (size_t)y->x->r->options.proof_terms,
+                         .max_terms = (size_t)y->x->r->question->options.proof_terms,
                          .sign = sign_of,
                          .context = (void *)y};
     bool found = nh_antiderivative(&in, nh_simplify_short(y->d, f, 0), F);
@@ -135,7 +135,7 @@ static bool is_closed(const nh_model *model, size_t i, size_t k)
 void nh_slopes_search(nh_stage_solver *solver)
 {
     enum { longest = 400 };
-    nh_model *model = solver->r->model;
+    nh_model *model = solver->r->question->model;
     nh_dag *d = model->dag;
     if (model->chart->implicit) return;
     for (size_t i = 0; i < model->n; i++)

@@ -14,6 +14,7 @@
 #include "graph/num.h"
 #include "integrals/fixed.h"
 #include "integrals/prove.h"
+#include "search/current_list.h"
 #include "search/other_values.h"
 
 enum { range_points = 256, range_points_each = 10, least_points = 256, least_tested = 60 };
@@ -21,10 +22,10 @@ static const double points_per_column = 2.5;
 
 bool nh_stage_solver_begin(nh_stage_solver *solver, nh_analysis *result, nh_error *error)
 {
-    size_t points = range_points_each * result->model->m;
+    size_t points = range_points_each * result->question->model->m;
     *solver = (nh_stage_solver){.r = result, .counted.r = result};
-    solver->ranges = nh_points_create(result->model, points > range_points ? points : range_points, 1,
-                                      (uint64_t)result->options.seed, error);
+    solver->ranges = nh_points_create(result->question->model, points > range_points ? points : range_points, 1,
+                                      (uint64_t)result->question->options.seed, error);
     solver->bench = solver->ranges ? nh_current_checker_create(result, error) : NULL;
     if (!solver->bench) nh_stage_solver_end(solver);
     return solver->bench != NULL;
@@ -50,7 +51,7 @@ static nh_ex rough(const nh_model *model, const nh_candidate *c)
 
 static size_t most_tested(const nh_analysis *result)
 {
-    return least_tested > result->local_maximum ? least_tested : result->local_maximum;
+    return least_tested > result->question->local_maximum ? least_tested : result->question->local_maximum;
 }
 
 /* Compares gradients with those of the known currents; candidates come simplest first. kind[k] of candidate k; returns
@@ -58,17 +59,18 @@ static size_t most_tested(const nh_analysis *result)
 static size_t compare(nh_stage_solver *solver, nh_candidates *list, nh_independence *kind)
 {
     nh_analysis *result = solver->r;
-    size_t known = result->count, most = most_tested(result), n = list->count < most ? list->count : most, fresh = 0;
+    size_t known = result->list->count, most = most_tested(result), n = list->count < most ? list->count : most,
+           fresh = 0;
     nh_ex *phi = nh_alloc_array(known + n + 1, sizeof *phi);
     nh_independence *all = nh_alloc_array(known + n + 1, sizeof *all);
     bool *exact = nh_alloc_array(known + n + 1, sizeof *exact);
-    nh_currents_list(result, phi, exact);
+    nh_current_list_formulas(result->list, phi, exact);
     for (size_t k = 0; k < n; k++) {
-        phi[known + k] = rough(result->model, &list->candidate[k]);
+        phi[known + k] = rough(result->question->model, &list->candidate[k]);
         exact[known + k] = list->candidate[k].count == 1;
     }
-    nh_independence_test(result->model, solver->bench->generic, known + n, phi, exact, result->options.sure,
-                         result->options.doubt, all, NULL);
+    nh_independence_test(result->question->model, solver->bench->generic, known + n, phi, exact,
+                         result->question->options.sure, result->question->options.doubt, all, NULL);
     for (size_t k = 0; k < n; k++) {
         kind[k] = all[known + k];
         fresh += kind[k] == NH_INDEPENDENT;
@@ -82,7 +84,7 @@ static size_t compare(nh_stage_solver *solver, nh_candidates *list, nh_independe
 
 bool nh_stage_solver_done(const nh_stage_solver *solver)
 {
-    return solver->r->independent >= solver->r->local_maximum || nh_budget_spent() || nh_late();
+    return solver->r->list->independent >= solver->r->question->local_maximum || nh_budget_spent() || nh_late();
 }
 
 /* ---- one stage ---- */
@@ -105,17 +107,18 @@ static void keep_spectrum(nh_stage_solver *solver, const nh_nullspace *s, bool f
 {
     nh_analysis *r = solver->r;
     bool alone = r->current.columns < 3 && s->columns >= 3; /* the energy alone: one value shows no gap */
-    bool better = !r->current.done || found || alone || (r->count == 0 && s->columns > r->current.columns);
+    bool better = !r->current.done || found || alone || (r->list->count == 0 && s->columns > r->current.columns);
     if (better) r->current = nh_spectrum_of(r->arena, s);
 }
 
 static nh_sectors split(nh_stage_solver *solver, nh_ansatz *a)
 {
     nh_analysis *result = solver->r;
-    bool large = a->columns > (size_t)result->options.split_columns;
+    bool large = a->columns > (size_t)result->question->options.split_columns;
     nh_reflections none = {0};
-    if (large && !solver->reflections) solver->reflections = nh_reflections_find(result->model, solver->ranges);
-    return nh_sectors_split(result->model, large ? solver->reflections : &none, solver->ranges, a);
+    if (large && !solver->reflections)
+        solver->reflections = nh_reflections_find(result->question->model, solver->ranges);
+    return nh_sectors_split(result->question->model, large ? solver->reflections : &none, solver->ranges, a);
 }
 
 /* The work of the null spaces of the parts: both triangles, then two decompositions of each. */
@@ -134,7 +137,7 @@ static double dense_work(const nh_sectors *sectors, size_t points)
 static nh_limit limit_of(const nh_stage_solver *solver, const nh_sectors *sectors, size_t points)
 {
     static const double room = 1.2;
-    const nh_options *options = &solver->r->options;
+    const nh_options *options = &solver->r->question->options;
     double work = dense_work(sectors, points);
     if (!solver->wide && sectors->largest > (size_t)options->stage_columns)
         return (nh_limit){"stage_columns", (double)sectors->largest};
@@ -152,10 +155,12 @@ static size_t points_for(const nh_sectors *sectors)
 nh_solved nh_stage_solver_solve(nh_stage_solver *solver, size_t families, const nh_family *family)
 {
     nh_analysis *r = solver->r;
+    nh_model *model = r->question->model;
+    const nh_options *options = &r->question->options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_solved s = {
-        .ansatz = nh_ansatz_create(r->model, solver->ranges, families, family, (size_t)r->options.columns, &ignored)};
+    nh_solved s = {.ansatz =
+                       nh_ansatz_create(model, solver->ranges, families, family, (size_t)options->columns, &ignored)};
     if (!s.ansatz) {
         s.limit = (nh_limit){"columns", nh_ansatz_size(families, family)};
         return s;
@@ -168,11 +173,11 @@ nh_solved nh_stage_solver_solve(nh_stage_solver *solver, size_t families, const 
         nh_ansatz_free(s.ansatz);
         s.ansatz = NULL;
     } else if (sectors.count) {
-        nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
-        s.fit = nh_points_cover(r->model, count, (uint64_t)r->options.seed + r->stages, &ignored);
+        nh_nullspace_options limits = nh_nullspace_options_from(options);
+        s.fit = nh_points_cover(model, count, (uint64_t)options->seed + r->stages, &ignored);
         if (s.fit)
-            s.nullspace = nh_sectors_solve(r->model, s.ansatz, &sectors, s.fit, &limits, nh_threads(r->options.threads),
-                                           &ignored);
+            s.nullspace =
+                nh_sectors_solve(model, s.ansatz, &sectors, s.fit, &limits, nh_threads(options->threads), &ignored);
     }
     nh_sectors_clear(&sectors);
     return s;
@@ -192,8 +197,8 @@ size_t nh_stage_solver_news(nh_stage_solver *solver, size_t families, const nh_f
     size_t fresh = 0;
     if (worst) *worst = s.nullspace && s.nullspace->likely ? s.nullspace->spectrum[s.nullspace->likely - 1] : 0;
     if (s.nullspace && s.nullspace->likely) {
-        nh_candidates *list =
-            nh_echelon(solver->r->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely, &solver->r->options);
+        nh_candidates *list = nh_echelon(solver->r->question->model, s.fit, s.ansatz, s.nullspace, s.nullspace->likely,
+                                         &solver->r->question->options);
         nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
         fresh = compare(solver, list, kind);
         nh_free(kind);
@@ -213,19 +218,20 @@ static void solve_elsewhere(nh_stage_solver *solver, const nh_solved *s, size_t 
                             nh_other_values *other)
 {
     const nh_analysis *r = solver->r;
+    const nh_options *options = &r->question->options;
     nh_error ignored;
     nh_error_clear(&ignored);
-    if (!nh_other_values_begin(r->model, other)) return;
+    if (!nh_other_values_begin(r->question->model, other)) return;
     nh_sectors sectors = split(solver, s->ansatz); /* in the order in which it is */
     size_t count = points_for(&sectors);
-    nh_nullspace_options limits = nh_nullspace_options_from(&r->options);
+    nh_nullspace_options limits = nh_nullspace_options_from(options);
     nh_nullspace *nullspace = NULL;
     if (sectors.count && !limit_of(solver, &sectors, count).option)
-        other->points = nh_points_create(&other->model, count, 1, (uint64_t)r->options.seed + r->stages, &ignored);
+        other->points = nh_points_create(&other->model, count, 1, (uint64_t)options->seed + r->stages, &ignored);
     if (other->points)
         nullspace = nh_sectors_solve(&other->model, s->ansatz, &sectors, other->points, &limits,
-                                     nh_threads(r->options.threads), &ignored);
-    if (nullspace) nh_other_values_take(other, s->ansatz, nullspace, pivots, pivot, &r->options);
+                                     nh_threads(options->threads), &ignored);
+    if (nullspace) nh_other_values_take(other, s->ansatz, nullspace, pivots, pivot, options);
     nh_nullspace_free(nullspace);
     nh_sectors_clear(&sectors);
 }
@@ -234,10 +240,10 @@ static void solve_elsewhere(nh_stage_solver *solver, const nh_solved *s, size_t 
 static void relate(nh_stage_solver *solver, const nh_solved *s, nh_candidate *c, nh_ex pivot, bool certain)
 {
     nh_analysis *r = solver->r;
-    const nh_proof *proof = &r->found[r->count - 1].proof;
+    const nh_proof *proof = &r->list->found[r->list->count - 1].proof;
     size_t values = 0;
-    for (size_t i = 0; i < r->model->system->parameters && proof->fixed; i++)
-        values += nh_fixed_has(r->model, proof->fixed, i);
+    for (size_t i = 0; i < r->question->model->system->parameters && proof->fixed; i++)
+        values += nh_fixed_has(r->question->model, proof->fixed, i);
     if (values < 2) return;
     c->by_values = false;
     c->pivot = 0;
@@ -251,8 +257,8 @@ static bool exchange(nh_stage_solver *solver, const nh_solved *s, size_t pivots,
                      nh_other_values *other)
 {
     const nh_analysis *r = solver->r;
-    const nh_proof *proof = &r->found[r->count - 1].proof;
-    if (!proof->proved || proof->all_parameters || r->model->system->parameters == 0) return true;
+    const nh_proof *proof = &r->list->found[r->list->count - 1].proof;
+    if (!proof->proved || proof->all_parameters || r->question->model->system->parameters == 0) return true;
     if (!other->tried) solve_elsewhere(solver, s, pivots, pivot, other);
     return nh_other_values_exchange(solver->bench, other, own);
 }
@@ -269,12 +275,12 @@ static nh_ex *pivots_of(const nh_candidates *list)
 static size_t add_new(nh_stage_solver *solver, nh_candidates *list, const nh_solved *s, bool certain)
 {
     nh_analysis *r = solver->r;
-    size_t before = r->independent, pivots = list->count;
+    size_t before = r->list->independent, pivots = list->count;
     nh_ex *pivot = pivots_of(list);
     nh_other_values other = {0};
     nh_independence *kind = nh_alloc_array(list->count + 1, sizeof *kind);
     compare(solver, list, kind);
-    for (size_t k = 0; k < list->count && r->independent < r->local_maximum; k++) {
+    for (size_t k = 0; k < list->count && r->list->independent < r->question->local_maximum; k++) {
         nh_candidate *c = &list->candidate[k];
         if (!certain && nh_stage_solver_done(solver)) {
             r->open += kind[k] == NH_INDEPENDENT;
@@ -290,14 +296,15 @@ static size_t add_new(nh_stage_solver *solver, nh_candidates *list, const nh_sol
     nh_free(pivot);
     nh_other_values_clear(&other);
     /* a series may seem independent of currents found after it */
-    if (r->independent >= r->local_maximum) nh_currents_recount(solver->bench);
-    return r->independent > before ? r->independent - before : 0;
+    if (r->list->independent >= r->question->local_maximum) nh_currents_recount(solver->bench);
+    return r->list->independent > before ? r->list->independent - before : 0;
 }
 
 /* Turns the first `count` null vectors into the new currents in them. */
 static size_t harvest(nh_stage_solver *solver, const nh_solved *s, size_t count, bool certain)
 {
-    nh_candidates *list = nh_echelon(solver->r->model, s->fit, s->ansatz, s->nullspace, count, &solver->r->options);
+    nh_candidates *list =
+        nh_echelon(solver->r->question->model, s->fit, s->ansatz, s->nullspace, count, &solver->r->question->options);
     size_t found = add_new(solver, list, s, certain);
     nh_candidates_free(list);
     return found;
@@ -359,8 +366,8 @@ size_t nh_stage_solver_certify(nh_stage_solver *solver, nh_ex e, const char *nam
 {
     nh_analysis *r = solver->r;
     nh_num one = nh_num_int(1);
-    if (nh_kind_of(r->model->dag, e) == NH_NUMBER || nh_currents_known(solver->bench, e, true)) return 0;
-    if (nh_prove_digits(r->model, e, &r->options) < r->options.digits) return 0;
+    if (nh_kind_of(r->question->model->dag, e) == NH_NUMBER || nh_currents_known(solver->bench, e, true)) return 0;
+    if (nh_prove_digits(r->question->model, e, &r->question->options) < r->question->options.digits) return 0;
     nh_stage_record *note = nh_stage_solver_note(solver, name);
     note->columns = 1;
     note->sectors = 1;
@@ -397,12 +404,12 @@ static int sign_of(void *context, nh_ex e) { return nh_model_sign(context, e); }
 
 bool nh_stage_solver_integral(const nh_stage_solver *solver, nh_ex variable, nh_ex f, bool elliptic, nh_ex *F)
 {
-    nh_model *model = solver->r->model;
+    nh_model *model = solver->r->question->model;
     nh_integration in = {.dag = model->dag,
                          .x = variable,
                          .constants = model->system->parameters,
                          .constant = model->parameter,
-                         .max_terms = (size_t)solver->r->options.proof_terms,
+                         .max_terms = (size_t)solver->r->question->options.proof_terms,
                          .elliptic = elliptic,
                          .sign = sign_of,
                          .context = model};

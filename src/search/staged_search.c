@@ -23,7 +23,7 @@
 /* The part of a momentum with velocities, where there is another, which may come from a total derivative in L. */
 static void without_positions(nh_stage_solver *solver, nh_ex momentum)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     nh_ex *zero = nh_alloc_array(model->n + 1, sizeof *zero);
     for (size_t i = 0; i < model->n; i++) zero[i] = nh_int(model->dag, 0);
     nh_ex rest = nh_substitute(model->dag, momentum, model->n, model->chart->w, zero);
@@ -40,7 +40,7 @@ static void energy_and_momenta(nh_stage_solver *solver)
     for (size_t i = 0; i <= solver->words.momenta && !nh_stage_solver_done(solver); i++) {
         nh_ex *e = nh_arena_alloc(result->arena, sizeof *e);
         nh_family *all = nh_arena_alloc(result->arena, sizeof *all);
-        *e = i == 0 ? result->model->E : solver->words.momentum[i - 1];
+        *e = i == 0 ? result->question->model->E : solver->words.momentum[i - 1];
         *all = (nh_family){.kind = NH_TERMS, .terms = 1, .term = e};
         if (nh_stage_solver_promising(solver, 1, all))
             nh_stage_solver_stage(solver, i == 0 ? "energy" : "a momentum", 1, all);
@@ -54,8 +54,8 @@ static void energy_and_momenta(nh_stage_solver *solver)
 /* What the energy and the work of the forces leave constant, where the forces have a potential. */
 static void force_potential(nh_stage_solver *solver)
 {
-    const nh_model *model = solver->r->model;
-    nh_ex U = nh_force_potential(model, solver->ranges, (size_t)solver->r->options.proof_terms);
+    const nh_model *model = solver->r->question->model;
+    nh_ex U = nh_force_potential(model, solver->ranges, (size_t)solver->r->question->options.proof_terms);
     if (U) nh_stage_solver_certify(solver, nh_sub(model->dag, model->E, U), "energy and potential of the forces");
 }
 
@@ -65,12 +65,12 @@ static void how_it_ended(nh_analysis *result, bool spent)
 {
     for (size_t i = 0; i < result->stages; i++)
         spent |= result->stage[i].limit.option && !strcmp(result->stage[i].limit.option, "work");
-    if (result->independent >= result->local_maximum) result->search = NH_SEARCH_COMPLETE;
+    if (result->list->independent >= result->question->local_maximum) result->search = NH_SEARCH_COMPLETE;
     else result->search = spent || nh_late() ? NH_SEARCH_CUT : NH_SEARCH_EXHAUSTED;
     if (result->search != NH_SEARCH_CUT || !spent) return;
     result->partial = true;
     nh_analysis_warn(result, "the limit of %g million units of work ended the search; raise it by --option work=%g",
-                     result->options.work, 10 * result->options.work);
+                     result->question->options.work, 10 * result->question->options.work);
 }
 
 /* For these only the equations on one side of kinks are left. */
@@ -146,7 +146,8 @@ typedef struct {
 
 static outcome outcome_of(const nh_analysis *result)
 {
-    return (outcome){result->count, result->pieces, result->independent, result->furthers};
+    const nh_current_list *list = result->list;
+    return (outcome){list->count, list->pieces, list->independent, list->furthers};
 }
 
 static void run_row(nh_stage_solver *solver, size_t i)
@@ -154,11 +155,11 @@ static void run_row(nh_stage_solver *solver, size_t i)
     nh_stage stage;
     nh_analysis *result = solver->r;
     const row *own = &rows[i];
-    if (part_is_done(solver, own->part) || result->left_out >> i & 1) return;
+    if (part_is_done(solver, own->part) || result->question->left_out >> i & 1) return;
     outcome before = outcome_of(result);
     solver->counted.on = own->part != CONSTRUCTED && i >= counted;
     if (own->run) own->run(solver);
-    else if (nh_stage_at(result->arena, result->model, &solver->words, own->stage, &stage))
+    else if (nh_stage_at(result->arena, result->question->model, &solver->words, own->stage, &stage))
         nh_stage_solver_stage(solver, stage.name, stage.families, stage.family);
     outcome after = outcome_of(result);
     if (memcmp(&before, &after, sizeof before)) result->used |= UINT64_C(1) << i;
@@ -170,10 +171,10 @@ bool nh_staged_search_run(nh_analysis *result, nh_error *error)
     bool spent = false;
     if (!nh_stage_solver_begin(&x, result, error)) return false;
     result->counted = nh_count_memory_create();
-    x.words = nh_dictionary_of(result->model);
+    x.words = nh_dictionary_of(result->question->model);
     for (part p = 0; p < PARTS; p++) {
         /* the motion is integrated with what the fits have left */
-        if (p != INTEGRATED) nh_budget_begin(p == ELSEWHERE ? INFINITY : result->options.work);
+        if (p != INTEGRATED) nh_budget_begin(p == ELSEWHERE ? INFINITY : result->question->options.work);
         for (size_t i = 0; i < ROWS; i++)
             if (rows[i].part == p) run_row(&x, i);
         spent |= p != CONSTRUCTED && nh_budget_spent();

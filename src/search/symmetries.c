@@ -8,6 +8,7 @@
 #include "exact/normal.h"
 #include "graph/dag.h"
 #include "integrals/fixed.h"
+#include "search/current_list.h"
 
 enum { together = 8, most_components = 16 };
 
@@ -87,24 +88,25 @@ static void find(size_t index, void *context)
     tasks *x = context;
     task *t = &x->task[index];
     nh_current *f = t->current;
-    t->dag = nh_dag_copy(x->r->model->dag);
-    t->model = nh_model_copy(x->r->model, t->dag);
+    t->dag = nh_dag_copy(x->r->question->model->dag);
+    t->model = nh_model_copy(x->r->question->model, t->dag);
     nh_error_clear(&t->trouble);
-    f->has_symmetry = nh_symmetry_of(t->model, x->points, f->phi, x->r->options.same, &f->symmetry, &t->trouble);
+    f->has_symmetry =
+        nh_symmetry_of(t->model, x->points, f->phi, x->r->question->options.same, &f->symmetry, &t->trouble);
     if (f->has_symmetry && f->proof.fixed) put_values(t->model, f->proof.fixed, &f->symmetry);
 }
 
 static void find_all(nh_analysis *result, const nh_points *points, size_t n, nh_current *current)
 {
-    if (n) nh_model_G(result->model); /* every symmetry needs it: once is enough */
+    if (n) nh_model_G(result->question->model); /* every symmetry needs it: once is enough */
     for (size_t first = 0; first < n; first += together) {
         size_t count = n - first < together ? n - first : together;
         tasks x = {.r = result, .points = points};
         for (size_t k = 0; k < count; k++) x.task[k].current = &current[first + k];
-        nh_parallel(count, nh_threads(result->options.threads), find, &x);
+        nh_parallel(count, nh_threads(result->question->options.threads), find, &x);
         for (size_t k = 0; k < count; k++) {
             task *t = &x.task[k];
-            if (t->current->has_symmetry) bring(result->model, t->model, &t->current->symmetry);
+            if (t->current->has_symmetry) bring(result->question->model, t->model, &t->current->symmetry);
             else nh_analysis_warn(result, "no symmetry could be computed: %s", t->trouble.what);
             nh_model_copy_free(t->model);
             nh_dag_free(t->dag);
@@ -114,14 +116,15 @@ static void find_all(nh_analysis *result, const nh_points *points, size_t n, nh_
 
 void nh_symmetries_find(nh_analysis *result)
 {
+    const nh_current_list *list = result->list;
     enum { generic_count = 24 };
     nh_error trouble;
     nh_error_clear(&trouble);
     nh_progress("the symmetries", -1);
-    nh_points *points =
-        nh_points_create(result->model, generic_count, 1, (uint64_t)result->options.seed + 202, &trouble);
+    nh_points *points = nh_points_create(result->question->model, generic_count, 1,
+                                         (uint64_t)result->question->options.seed + 202, &trouble);
     if (!points) nh_analysis_warn(result, "no symmetry could be computed: %s", trouble.what);
-    if (points) find_all(result, points, result->count, result->found);
-    if (points) find_all(result, points, result->pieces, result->piece);
+    if (points) find_all(result, points, list->count, nh_current_list_describe(result, list->found));
+    if (points) find_all(result, points, list->pieces, nh_current_list_describe(result, list->piece));
     nh_points_free(points);
 }

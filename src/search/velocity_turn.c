@@ -183,14 +183,14 @@ static bool turn(const problem *p, bool general)
 /* The integral, and where the root of M_11 jumps, depend on which velocity is the first. */
 void nh_velocity_turn_search(nh_stage_solver *solver)
 {
-    const nh_model *model = solver->r->model;
+    const nh_model *model = solver->r->question->model;
     const nh_ex *w = model->chart->w, *a = model->a;
     if (model->n != 2 || model->chart->implicit) return;
-    for (size_t k = 0; k < solver->r->count && !nh_stage_solver_done(solver); k++) {
-        nh_ex Q = solver->r->found[k].phi;
+    for (size_t k = 0; k < solver->r->list->count && !nh_stage_solver_done(solver); k++) {
+        nh_ex Q = solver->r->list->found[k].phi;
         problem p = {.x = solver, .o = model, .d = model->dag, .w = {w[0], w[1]}, .a = {a[0], a[1]}};
         problem q = {.x = solver, .o = model, .d = model->dag, .w = {w[1], w[0]}, .a = {a[1], a[0]}};
-        if (solver->r->found[k].series || !quadratic(&p, Q) || !quadratic(&q, Q)) continue;
+        if (solver->r->list->found[k].series || !quadratic(&p, Q) || !quadratic(&q, Q)) continue;
         if (!turn(&p, true) && !turn(&q, true) && !turn(&p, false)) turn(&q, false);
         return;
     }
