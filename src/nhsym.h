@@ -154,7 +154,7 @@ NH_API char *nh_classified_document(const nh_classified *classified, nh_format f
 NH_API char *nh_benchmark_document(const nh_benchmark *benchmark, nh_format format, nh_error *error);
 NH_API char *nh_linearized_document(const nh_linearized *linearized, nh_format format, nh_error *error);
 NH_API void  nh_string_free(char *string); /* frees strings of all functions */
-/* language: "c", "python", "sympy", "matlab", "latex" or "json".  NULL, or parts: "equations, currents"; inputs:
+/* language: "c", "python", "sympy", "matlab", "js", "latex" or "json".  NULL, or parts: "equations, currents"; inputs:
  * parameters, "u, tau"; prefix: what all names begin with, instead of the system's name. */
 NH_API nh_export *nh_export_functions(nh_problem *problem, const char *language, const char *parts, const char *inputs,
                                       const char *prefix, nh_error *error);

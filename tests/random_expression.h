@@ -114,7 +114,9 @@ static inline nh_ex parsed(nh_dag *dag, const char *text)
 
 static inline double naive_call(nh_function f, double a, double b)
 {
-    static double (*const of[])(double) = {sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, log, fabs};
+#define X(id, name, parity, at_zero, at_one) [NH_##id] = name,
+    static double (*const of[])(double) = {NH_ELEMENTARY_TABLE(X)[NH_ABS] = fabs};
+#undef X
     if (f == NH_PI) return acos(-1);
     if (f == NH_ATAN2) return atan2(a, b);
     if (f == NH_SIGN) return isnan(a) ? a : (a > 0) - (a < 0);

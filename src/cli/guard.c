@@ -1,14 +1,19 @@
 /* guard: signals and the limits of time and memory.
  *
  * One thread waits for all of them.  A pipe that nobody reads any more and a file that may not grow are errors of the
- * write, for which their signals wait.  The first signal, and a limit, end the computation by base/progress.h: it
- * returns soon, with what it has.  The same signal again within `same_press` is still the first one: `timeout` sends it
- * to the
- * process and to its group.  A second signal, one that comes while results are written, and a computation that has
- * still not come back when it has used `grace` more of the processor, or of `more` memory, end the process at once:
- * without temporary files, folders and children (base/leave.h), so that every file is whole or as it was.  A limit that
- * comes while results are written takes nothing away from them, nor does the first signal: where writing takes longer
- * than `patience_of_user` (the tables of many motions take minutes), a line says what a second one does. */
+ * write, for which their signals wait.
+ *
+ *     the first signal, a limit           the computation ends by base/progress.h, and what it has is written
+ *     the same signal within `same_press` nothing: `timeout` sends it to the process and to its group
+ *     a second signal; one that comes     the process ends at once
+ *       while a result is written
+ *     the computation has not come back   the process ends at once
+ *       after `grace` or `more` memory
+ *     a limit while a result is written   nothing, but for `patience` times the grace
+ *
+ * At once means: without temporary files, folders and children (base/leave.h), so that every file is whole or as it
+ * was.  Where a result takes longer to write than `patience_of_user` after the first signal, as tables of many motions
+ * do, a line says what a second one does. */
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>

@@ -14,13 +14,59 @@
 #include "document/reduction.h"
 #include "graph/node.h"
 
-static const char *const targets[] = {"c", "python", "sympy", "matlab", "js", "latex", "json"};
-enum { target_count = sizeof targets / sizeof *targets };
+/* ---- the languages ---- */
+
+static void write_c(const nh_export *x, const char *prefix, nh_text *out)
+{
+    nh_export_c_header(x, prefix, out);
+    nh_text_add(out, "\n");
+    nh_export_c_source(x, prefix, false, out);
+}
+
+static void write_python(const nh_export *x, const char *prefix, nh_text *out)
+{
+    nh_export_python(x, prefix, false, out);
+}
+
+static void write_sympy(const nh_export *x, const char *prefix, nh_text *out)
+{
+    nh_export_python(x, prefix, true, out);
+}
+
+static void write_js(const nh_export *x, const char *prefix, nh_text *out)
+{
+    (void)prefix;
+    nh_live_js_file(x->analysis, out);
+}
+
+static void write_latex(const nh_export *x, const char *prefix, nh_text *out)
+{
+    (void)prefix;
+    nh_export_latex(x, out);
+}
+
+/* A row for each nh_export_target. */
+static const struct {
+    const char *name, *ending;          /* of --to; of the file, after the prefix */
+    const nh_source_language *language; /* whose functions are all that may occur; NULL: any may */
+    void (*write)(const nh_export *x, const char *prefix, nh_text *out); /* NULL: JSON, which has the run as well */
+} targets[] = {
+    [NH_EXPORT_C] = {"c", ".c", &nh_source_c, write_c},
+    [NH_EXPORT_PYTHON] = {"python", ".py", &nh_source_python, write_python},
+    [NH_EXPORT_SYMPY] = {"sympy", "_sympy.py", &nh_source_sympy, write_sympy},
+    [NH_EXPORT_MATLAB] = {"matlab", ".m", &nh_source_matlab, nh_export_matlab},
+    [NH_EXPORT_JS] = {"js", ".js", NULL, write_js},
+    [NH_EXPORT_LATEX] = {"latex", ".tex", NULL, write_latex},
+    [NH_EXPORT_JSON] = {"json", ".json", NULL, NULL},
+};
+enum { TARGETS = sizeof targets / sizeof *targets };
 
 bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *error)
 {
-    for (size_t i = 0; name && i < target_count; i++) {
-        if (strcmp(name, targets[i]) && !(i == NH_EXPORT_MATLAB && !strcmp(name, "octave"))) continue;
+    const char *names[TARGETS];
+    for (size_t i = 0; i < TARGETS; i++) {
+        names[i] = targets[i].name;
+        if (!name || (strcmp(name, names[i]) && !(i == NH_EXPORT_MATLAB && !strcmp(name, "octave")))) continue;
         *out = (nh_export_target)i;
         return true;
     }
@@ -31,7 +77,7 @@ bool nh_export_target_of(const char *name, nh_export_target *out, nh_error *erro
                                             {"c++", "c"},     {"m", "matlab"},     {"javascript", "js"}};
     for (size_t i = 0; name && i < sizeof others / sizeof *others; i++)
         if (!strcasecmp(name, others[i][0])) return nh_error_hint(error, "did you mean `%s`?", others[i][1]);
-    return nh_error_hint_near(error, name ? name : "", targets, target_count,
+    return nh_error_hint_near(error, name ? name : "", names, TARGETS,
                               "--to takes c, python, sympy, matlab, js, latex or json");
 }
 
@@ -143,18 +189,17 @@ void nh_export_summary(const nh_export *x, nh_text *out)
 
 bool nh_export_possible(const nh_export *x, nh_export_target target, nh_error *error)
 {
-    static const nh_source_language *const language[] = {&nh_source_c, &nh_source_python, &nh_source_sympy,
-                                                         &nh_source_matlab};
+    const nh_source_language *language = targets[target].language;
     if (target == NH_EXPORT_JS) return nh_live_possible(x->analysis, error);
-    for (size_t i = 0; i < x->functions && target < NH_EXPORT_LATEX; i++) {
+    for (size_t i = 0; i < x->functions && language; i++) {
         nh_ex *e;
         const nh_export_function *f = &x->function[i];
         size_t n = nh_export_expressions(f, x->arena, &e);
         for (size_t k = 0; k < n; k++) {
-            const char *name = nh_source_lacks(language[target], f->dag, e[k]);
+            const char *name = nh_source_lacks(language, f->dag, e[k]);
             if (!name) continue;
             nh_fail(error, NH_USAGE, "--to", "no common library of %s has the function %s, which `%s` needs",
-                    language[target]->name, name, f->name);
+                    language->name, name, f->name);
             return nh_error_hint(
                 error, "--to python has all functions, by SciPy and mpmath; latex and json write them as they are");
         }
@@ -164,30 +209,19 @@ bool nh_export_possible(const nh_export *x, nh_export_target target, nh_error *e
 
 void nh_export_text(const nh_export *x, nh_export_target target, const char *prefix, const nh_run *run, nh_text *out)
 {
-    char *json;
-    switch (target) {
-    case NH_EXPORT_C:
-        nh_export_c_header(x, prefix, out);
-        nh_text_add(out, "\n");
-        nh_export_c_source(x, prefix, false, out);
-        break;
-    case NH_EXPORT_PYTHON: nh_export_python(x, prefix, false, out); break;
-    case NH_EXPORT_SYMPY: nh_export_python(x, prefix, true, out); break;
-    case NH_EXPORT_MATLAB: nh_export_matlab(x, prefix, out); break;
-    case NH_EXPORT_JS: nh_live_js_file(x->analysis, out); break;
-    case NH_EXPORT_LATEX: nh_export_latex(x, out); break;
-    case NH_EXPORT_JSON:
-        nh_text_add(out, json = nh_export_json(x, run));
-        nh_free(json);
-        break;
+    if (targets[target].write) {
+        targets[target].write(x, prefix, out);
+        return;
     }
+    char *json = nh_export_json(x, run);
+    nh_text_add(out, json);
+    nh_free(json);
 }
 
 size_t nh_export_files(const nh_export *x, nh_export_target target, const char *prefix, const nh_run *run,
                        nh_export_file out[NH_EXPORT_MOST_FILES])
 {
-    static const char *const ending[] = {".c", ".py", "_sympy.py", ".m", ".js", ".tex", ".json"};
-    out[0].name = nh_arena_printf(x->arena, "%s%s", prefix, ending[target]);
+    out[0].name = nh_arena_printf(x->arena, "%s%s", prefix, targets[target].ending);
     nh_text_init(&out[0].text);
     if (target != NH_EXPORT_C) {
         nh_export_text(x, target, prefix, run, &out[0].text);

@@ -12,6 +12,8 @@
 #include "graph/expr.h"
 #include "graph/measure.h"
 
+/* NH_ZERO: proved, wherever e is defined.  NH_NONZERO: a value differs from 0, which is a proof; or the form is not 0,
+ * or e has no form, as 1/0 has none, which are none. */
 typedef enum { NH_ZERO, NH_NONZERO, NH_TOO_LARGE } nh_zero_verdict;
 
 /* Is e identically zero?  `max_terms` bounds the size of intermediate polynomials (0: the default of 20000).  Where the

@@ -30,9 +30,9 @@ typedef struct {
     nh_prime field;
     size_t rows, columns, rank;
     nh_residue *a;
-    size_t first, width;               /* the columns of the present panel */
-    size_t found, *pivot;              /* number of pivots in it; their columns in the matrix */
-    nh_residue *panel, *pivots, *part; /* rows x width; found x 2 found; found x columns */
+    size_t first, width;                      /* the columns of the present panel */
+    size_t found, *pivot;                     /* number of pivots in it; their columns in the matrix */
+    nh_residue *panel, *inverse_block, *part; /* rows x width; found x 2 found; found x columns */
 } elimination;
 
 static void swap_rows(nh_residue *a, size_t n, size_t i, size_t k)
@@ -59,11 +59,12 @@ static void find_pivots(elimination *x)
         swap_rows(x->panel, w, i, x->found);
         swap_rows(x->a, x->columns, x->rank + i, x->rank + x->found);
         const nh_residue *head = x->panel + x->found * w;
-        nh_residue inverse = nh_residue_negative(x->field, nh_residue_inverse(x->field, head[c]));
+        nh_residue minus_inverse = nh_residue_negative(x->field, nh_residue_inverse(x->field, head[c]));
         for (i = x->found + 1; i < rest; i++) {
             nh_residue *own = x->panel + i * w;
             if (own[c])
-                nh_residue_add_multiple(x->field, w - c, own + c, head + c, nh_residue_mul(x->field, own[c], inverse));
+                nh_residue_add_multiple(x->field, w - c, own + c, head + c,
+                                        nh_residue_mul(x->field, own[c], minus_inverse));
         }
         x->pivot[x->rank + x->found++] = x->first + c;
     }
@@ -73,7 +74,7 @@ static void find_pivots(elimination *x)
 static void invert_pivots(elimination *x)
 {
     size_t k = x->found, w = 2 * k;
-    nh_residue *b = x->pivots;
+    nh_residue *b = x->inverse_block;
     memset(b, 0, k * w * sizeof *b);
     for (size_t i = 0; i < k; i++) {
         for (size_t j = 0; j < k; j++) b[i * w + j] = x->a[(x->rank + i) * x->columns + x->pivot[x->rank + j]];
@@ -99,7 +100,8 @@ static void apply_pivots(elimination *x, bool above)
     nh_residue factor[panel_width];
     memset(x->part, 0, k * n * sizeof *x->part);
     for (size_t t = 0; t < k; t++) row[t] = x->a + (x->rank + t) * x->columns + x->first;
-    for (size_t i = 0; i < k; i++) nh_row_sum_add(x->field, n, x->part + i * n, k, x->pivots + i * 2 * k + k, row);
+    for (size_t i = 0; i < k; i++)
+        nh_row_sum_add(x->field, n, x->part + i * n, k, x->inverse_block + i * 2 * k + k, row);
     for (size_t i = 0; i < k; i++)
         memcpy(x->a + (x->rank + i) * x->columns + x->first, x->part + i * n, n * sizeof *x->part);
     for (size_t i = above ? 0 : x->rank + k; i < x->rows; i++) {
@@ -117,7 +119,7 @@ static size_t eliminate(nh_prime field, size_t rows, size_t columns, size_t with
 {
     elimination x = {.field = field, .rows = rows, .columns = columns, .a = a, .pivot = pivot};
     x.panel = nh_alloc_array(rows * panel_width + 1, sizeof *x.panel);
-    x.pivots = nh_alloc_array(2 * panel_width * panel_width, sizeof *x.pivots);
+    x.inverse_block = nh_alloc_array(2 * panel_width * panel_width, sizeof *x.inverse_block);
     x.part = nh_alloc_array(panel_width * columns + 1, sizeof *x.part);
     for (x.first = 0; x.first < within && x.rank < rows; x.first += x.width) {
         x.width = within - x.first < panel_width ? within - x.first : panel_width;
@@ -128,7 +130,7 @@ static size_t eliminate(nh_prime field, size_t rows, size_t columns, size_t with
         x.rank += x.found;
     }
     nh_free(x.part);
-    nh_free(x.pivots);
+    nh_free(x.inverse_block);
     nh_free(x.panel);
     return x.rank;
 }

@@ -97,7 +97,8 @@ static void rehash(nh_dag *dag)
     }
 }
 
-/* Which symbols occur, as 64 bits of a hash: a clear bit proves absence. */
+/* Which symbols occur, as 64 bits of a hash: a clear bit proves absence.  The arguments of a number are the words of
+ * its value, that of a symbol is its place among the names: only those of other kinds are nodes. */
 static uint64_t mask_of(const nh_dag *dag, unsigned kind, size_t count, const uint32_t *arg)
 {
     if (kind == NH_NUMBER) return 0;
@@ -107,19 +108,22 @@ static uint64_t mask_of(const nh_dag *dag, unsigned kind, size_t count, const ui
     return mask;
 }
 
-nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg)
+/* In the chain of its bucket; false: there is no such node. */
+static bool find_node(const nh_dag *dag, uint64_t hash, unsigned kind, unsigned op, size_t count, const uint32_t *arg,
+                      nh_ex *out)
 {
-    /* a mistake of the program, whatever the number of threads */
-    if (NH_CHECKED && dag->worker != nh_parallel_worker()) abort();
-    nh_work_add(NH_WORK_NODE, 1);
-    uint64_t hash = hash_of(kind, op, count, arg);
     for (uint32_t i = dag->bucket[hash & (dag->bucket_count - 1)]; i; i = dag->all.node[i - 1].next) {
         const nh_node *n = &dag->all.node[i - 1];
         if (n->hash == hash && n->kind == kind && n->op == op && n->count == count &&
             (count == 0 || !memcmp(dag->all.arg + n->first, arg, count * sizeof *arg)))
-            return i - 1;
+            return *out = i - 1, true;
     }
-    /* the graph is full */
+    return false;
+}
+
+static nh_ex append_node(nh_dag *dag, uint64_t hash, unsigned kind, unsigned op, size_t count, const uint32_t *arg)
+{
+    /* a full graph ends the program as lack of memory does */
     if (dag->node_count >= UINT32_MAX - 1 || dag->arg_count + count > UINT32_MAX) nh_alloc(SIZE_MAX);
     if (dag->node_count >= dag->bucket_count) rehash(dag);
     nh_grow(&dag->all.node, &dag->node_capacity, dag->node_count + 1, sizeof *dag->all.node);
@@ -133,12 +137,21 @@ nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const
                    .hash = hash};
     if (count) memcpy(dag->all.arg + dag->arg_count, arg, count * sizeof *arg);
     dag->arg_count += count;
-    /* Children of numbers and symbols are table indices, not nodes. */
     n->mask = mask_of(dag, kind, count, arg);
     uint32_t *head = &dag->bucket[hash & (dag->bucket_count - 1)];
     n->next = *head;
     *head = self + 1;
     return self;
+}
+
+nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const uint32_t *arg)
+{
+    /* a mistake of the program, whatever the number of threads */
+    if (NH_CHECKED && dag->worker != nh_parallel_worker()) abort();
+    nh_work_add(NH_WORK_NODE, 1);
+    nh_ex same;
+    uint64_t hash = hash_of(kind, op, count, arg);
+    return find_node(dag, hash, kind, op, count, arg, &same) ? same : append_node(dag, hash, kind, op, count, arg);
 }
 
 /* ---- simplest forms ---- */

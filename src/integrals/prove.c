@@ -94,7 +94,7 @@ static nh_zero_verdict is_zero(const nh_model *model, nh_ex e, size_t limit)
 }
 
 typedef struct {
-    const nh_model *o;
+    const nh_model *model;
     nh_ex e;
     size_t limit;
 } zero_problem;
@@ -102,11 +102,11 @@ typedef struct {
 static bool vanishes(const nh_ex *fixed, void *context)
 {
     const zero_problem *z = context;
-    return is_zero(z->o, nh_fixed_values(z->o, fixed, z->e), z->limit) == NH_ZERO;
+    return is_zero(z->model, nh_fixed_values(z->model, fixed, z->e), z->limit) == NH_ZERO;
 }
 
-/* By normal forms of at most so many terms.  Is one too large? */
-static bool prove_sum(const nh_model *model, nh_ex sum, nh_claim claim, size_t limit, nh_proof *proof)
+/* By normal forms of at most so many terms.  True: one was too large. */
+static bool try_forms(const nh_model *model, nh_ex sum, nh_claim claim, size_t limit, nh_proof *proof)
 {
     nh_zero_verdict symbols = NH_TOO_LARGE, values = NH_ZERO;
     if (!proof->proved && claim.free && !claim.rounded)
@@ -139,7 +139,7 @@ static nh_proof prove_zero(const nh_model *model, size_t n, const nh_ex *term, n
     bool *decisive = nh_alloc_array(model->system->parameters + 1, sizeof *decisive);
     sum = nh_rate_form(model, sum, decisive);
     size_t limit = (size_t)options->proof_terms;
-    bool longer = !proof.proved && prove_sum(model, sum, claim, limit, &proof);
+    bool longer = !proof.proved && try_forms(model, sum, claim, limit, &proof);
     bool exact = true;
     for (size_t i = 0; i < n; i++) {
         valued[i] = nh_model_values(model, term[i]);
@@ -147,7 +147,7 @@ static nh_proof prove_zero(const nh_model *model, size_t n, const nh_ex *term, n
     }
     cancel(model, n, valued, options, &proof);
     if (longer && !proof.proved && proof.points > 0 && proof.digits >= options->digits)
-        prove_sum(model, sum, claim, patience * limit, &proof);
+        try_forms(model, sum, claim, patience * limit, &proof);
     if (proof.proved) proof = with_values(model, proof, decisive);
     nh_free(decisive);
     /* numbers too long for exact rationals were rounded to doubles when the rate was formed */
@@ -267,6 +267,9 @@ double nh_prove_digits(const nh_model *model, nh_ex phi, const nh_options *optio
     return proof.digits;
 }
 
+/* 1. What the claim brings with it: a relation with other currents.  2. Of a long rate, energy or a short field: the
+ * normal form would be far longer.  3. Normal forms, then balls (prove_zero).  4. The field, where forms left it open
+ * for which parameters it holds. */
 nh_proof nh_prove_claim(const nh_model *model, nh_ex phi, nh_claim claim, const nh_options *options)
 {
     enum { long_rate = 2000 }; /* nh_complexity */
@@ -282,13 +285,13 @@ nh_proof nh_prove_claim(const nh_model *model, nh_ex phi, nh_claim claim, const 
     else if (!claim.rounded && length > long_rate && proved_by_symmetry(model, phi, claim, options))
         proof = claim.free ? holding(proof, claim.fixed) : (nh_proof){.proved = true};
     proof = prove_zero(model, n, term, proof, claim, options);
-    bool open = !proof.refuted && claim.free && !claim.rounded;
+    bool may_be_general = !proof.refuted && claim.free && !claim.rounded;
     /* a short rate with many roots can be harder than its field */
     bool general = proof.proved && (proof.all_parameters || claim.fixed);
-    if (open && !general && length <= long_rate && proved_by_symmetry(model, phi, claim, options))
+    if (may_be_general && !general && length <= long_rate && proved_by_symmetry(model, phi, claim, options))
         proof = holding(proof, claim.fixed);
     /* a field may be known for the values only */
-    if (open && !proof.proved && length > long_rate)
+    if (may_be_general && !proof.proved && length > long_rate)
         proof.proved = proved_by_symmetry(model, phi, (nh_claim){.fixed = claim.fixed}, options);
     nh_free(term);
     return proof;

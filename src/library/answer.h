@@ -1,5 +1,5 @@
-/* answer: one way from a request to its documents, for the command line and for nhsym.h: a row for each command that
- * computes something. */
+/* answer: one way from a request to its documents, for the command line and for nhsym.h.  The table in
+ * answer_internal.h has a row for each command that computes something. */
 #ifndef NH_LIBRARY_ANSWER_H
 #define NH_LIBRARY_ANSWER_H
 

@@ -58,19 +58,21 @@ static double value_of_one(double t, void *context)
 /* ---- zeros ---- */
 
 /* Near a zero a function is far smaller than at some distance; near a jump or a pole it is not. */
-static bool jumps(nh_event_search *c, double root, double near)
+static bool jumps(nh_event_search *c, double root, double width)
 {
     double low = fmin(c->before, c->now), high = fmax(c->before, c->now),
-           far = fmax(far_off * near, distant * (high - low));
-    double left = fmax(root - far, low), right = fmin(root + far, high);
-    if (root - left < few * near || right - root < few * near)
+           away = fmax(far_off * width, distant * (high - low));
+    double left = fmax(root - away, low), right = fmin(root + away, high);
+    if (root - left < few * width || right - root < few * width)
         return false; /* at an end of the step this cannot be decided */
-    return fabs(value_of_one(root - near, c)) > most_jump * fabs(value_of_one(left, c)) &&
-           fabs(value_of_one(root + near, c)) > most_jump * fabs(value_of_one(right, c));
+    return fabs(value_of_one(root - width, c)) > most_jump * fabs(value_of_one(left, c)) &&
+           fabs(value_of_one(root + width, c)) > most_jump * fabs(value_of_one(right, c));
 }
 
-/* Brent's method between two times; false: the function jumps there. */
-static bool solve(nh_event_search *c, double near, double far, double *root)
+/* What Brent's method finds between two times: a zero, a jump, or nothing, as where the function has no value. */
+typedef enum { ZERO_FOUND, JUMP_FOUND, NOTHING_FOUND } outcome;
+
+static outcome solve(nh_event_search *c, double near, double far, double *root)
 {
     gsl_function f = {.function = value_of_one, .params = c};
     double at_near = value_of_one(near, c), at_far = value_of_one(far, c), low = fmin(near, far),
@@ -78,20 +80,19 @@ static bool solve(nh_event_search *c, double near, double far, double *root)
     *root = at_near == 0 ? near : far;
     if (!(at_near * at_far < 0)) { /* one of them is zero up to rounding */
         *root = fabs(at_near) < fabs(at_far) ? near : far;
-        return true;
+        return isfinite(at_near) && isfinite(at_far) ? ZERO_FOUND : NOTHING_FOUND;
     }
     gsl_root_fsolver *solver = nh_memory_got(gsl_root_fsolver_alloc(gsl_root_fsolver_brent));
     double enough = roundings * DBL_EPSILON * fmax(fabs(low), fabs(high));
-    bool good = gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS;
-    for (int i = 0; i < most_iterations && good; i++) {
+    bool good = gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS, found = false;
+    for (int i = 0; i < most_iterations && good && !found; i++) {
         good = gsl_root_fsolver_iterate(solver) == GSL_SUCCESS;
         if (good) *root = gsl_root_fsolver_root(solver);
-        if (gsl_root_fsolver_x_upper(solver) - gsl_root_fsolver_x_lower(solver) <= enough ||
-            value_of_one(*root, c) == 0)
-            break;
+        double width = gsl_root_fsolver_x_upper(solver) - gsl_root_fsolver_x_lower(solver);
+        found = width <= enough || value_of_one(*root, c) == 0;
     }
     gsl_root_fsolver_free(solver);
-    return !jumps(c, *root, enough);
+    return !found ? NOTHING_FOUND : jumps(c, *root, enough) ? JUMP_FOUND : ZERO_FOUND;
 }
 
 static void append(nh_motion *motion, double time, size_t which, int direction, const double *state)
@@ -171,10 +172,10 @@ static bool take_zeros(nh_event_search *c, double near, double far, nh_motion *m
         if (!(sign * s->side[i] < 0)) continue;
         s->side[i] = sign;
         c->which = i;
-        if (!solve(c, near, far, &root)) {
-            c->jumped = root;
-            continue;
-        }
+        outcome what = solve(c, near, far, &root);
+        if (what == JUMP_FOUND) c->jumped = root;
+        if (what == NOTHING_FOUND && isnan(c->unknown)) c->unknown = root;
+        if (what != ZERO_FOUND) continue;
         if (!is_wanted(c, i, direction) || !nh_inside_step_state(root, s->z, c->inside)) continue;
         append(motion, root, i, direction, s->z);
         put_in_order(motion, c->watch->begin, from);

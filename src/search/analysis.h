@@ -191,7 +191,7 @@ typedef struct {
 /* The integrals, each of them checked.  Only search/current_list.h changes which there are. */
 typedef struct {
     size_t count, capacity, independent;
-    const nh_current *found;
+    const nh_current *found; /* `count` of them, `independent` of which are */
     /* currents of a part of the motions only (integrals/region.h): not counted; at most NH_MOST_PIECES */
     size_t pieces;
     const nh_current *piece;

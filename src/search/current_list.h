@@ -16,7 +16,8 @@ nh_current *nh_current_list_describe(nh_analysis *result, const nh_current *entr
 void nh_current_list_append(nh_analysis *result, const nh_current *checked);
 /* Takes number k out of the list, into whose place the last one moves. */
 nh_current nh_current_list_take(nh_analysis *result, size_t k);
-/* Takes out those for which `leaves` holds; returns their number, and copies of them in the arena. */
+/* Takes out those for which `leaves` holds; the others keep their order.  Returns their number, and copies of them in
+ * the arena. */
 size_t nh_current_list_take_all(nh_analysis *result, bool (*leaves)(const nh_current *current), nh_current **taken);
 /* The energy first, then the simple ones, so that complicated ones are called dependent; equally simple ones in an
  * order that does not depend on rounding. */

@@ -78,10 +78,11 @@ static void sides(nh_stage_solver *solver) { nh_sides_search(solver, nh_staged_s
 
 static void primitives(nh_stage_solver *solver) { nh_missing_primitives(solver); }
 
-/* Each part of the search has the whole of the option `work`; the last one, which is short, as much as it needs. */
-typedef enum { FITTED, INTEGRATED, CONSTRUCTED, REST, ELSEWHERE, PARTS } part;
+/* The first three parts of the search share the whole of the option `work`; each of the others has it for itself, but
+   for the last one, which is short and has as much as it needs. */
+typedef enum { KNOWN, FITTED, INTEGRATED, CONSTRUCTED, REST, ELSEWHERE, PARTS } part;
 
-/* A row of the search: a stage of `stages`, or a search of its own. */
+/* A row of the search: a stage of `stages`, or a search of its own.  At most 64 of them: there is a bit for each. */
 typedef struct {
     const char *name; /* for `left_out`, and docs/stages.md */
     part part;
@@ -89,18 +90,18 @@ typedef struct {
     nh_stage_name stage;
 } row;
 
-/* What is known comes first; then small linear problems, because what is found in them is short; from `counted` on
-   those are left out in which the count says that nothing is missing.  Then the equations are integrated one after
-   another, which gives the motion, too, and what the count still misses is constructed.  What has no closed form is a
-   series at last.  The search ends as soon as there can be no more.  docs/stages.md has what each row is worth. */
+/* What is known comes first; then small linear problems, because what is found in them is short: those are left out in
+   which the count says that nothing is missing.  Then the equations are integrated one after another, which gives the
+   motion, too, and what the count still misses is constructed.  What has no closed form is a series at last.  The
+   search ends as soon as there can be no more.  docs/stages.md has what each row is worth. */
 static const row rows[] = {
-    {"constraints", FITTED, nh_integrals_find, 0},         /* positions that they hold */
-    {"energy and momenta", FITTED, energy_and_momenta, 0}, /* alone: no nearly dependent function replaces them */
-    {"potential of forces", FITTED, force_potential, 0},   /* the energy with it */
-    {"linear fields", FITTED, nh_linear_fields_search, 0}, /* translations, turns, boosts */
-    {"words", FITTED, .stage = NH_STAGE_WORDS},        /* the energy, momenta, velocities, positions by themselves */
-    {"driven words", FITTED, .stage = NH_STAGE_DRIVE}, /* with what a force of t adds to them */
-    {"rational", FITTED, .stage = NH_STAGE_RATIONAL},  /* velocities in denominators */
+    {"constraints", KNOWN, nh_integrals_find, 0},         /* positions that they hold */
+    {"energy and momenta", KNOWN, energy_and_momenta, 0}, /* alone: no nearly dependent function replaces them */
+    {"potential of forces", KNOWN, force_potential, 0},   /* the energy with it */
+    {"linear fields", KNOWN, nh_linear_fields_search, 0}, /* translations, turns, boosts */
+    {"words", KNOWN, .stage = NH_STAGE_WORDS},            /* the energy, momenta, velocities, positions by themselves */
+    {"driven words", FITTED, .stage = NH_STAGE_DRIVE},    /* with what a force of t adds to them */
+    {"rational", FITTED, .stage = NH_STAGE_RATIONAL},     /* velocities in denominators */
     {"linear motion", FITTED, nh_linear_motion_search, 0}, /* before the pencil, which has its rates by rounding */
     {"hidden linear motion", FITTED, nh_linear_motion_functions, 0}, /* in coordinates that hide it */
     {"rates", FITTED, nh_rates_search, 0},                           /* exponentials and waves with rates of a pencil */
@@ -126,7 +127,8 @@ static const row rows[] = {
     {"sides", ELSEWHERE, sides, 0},                      /* of kinks */
 };
 
-enum { ROWS = sizeof rows / sizeof *rows, counted = 5 };
+enum { ROWS = sizeof rows / sizeof *rows };
+_Static_assert(ROWS <= 64, "a bit for each row");
 
 const char *nh_staged_search_row(size_t i) { return i < ROWS ? rows[i].name : NULL; }
 
@@ -157,7 +159,7 @@ static void run_row(nh_stage_solver *solver, size_t i)
     const row *own = &rows[i];
     if (part_is_done(solver, own->part) || result->question->left_out >> i & 1) return;
     outcome before = outcome_of(result);
-    solver->counted.on = own->part != CONSTRUCTED && i >= counted;
+    solver->counted.on = own->part != KNOWN && own->part != CONSTRUCTED;
     if (own->run) own->run(solver);
     else if (nh_stage_at(result->arena, result->question->model, &solver->words, own->stage, &stage))
         nh_stage_solver_stage(solver, stage.name, stage.families, stage.family);
@@ -173,8 +175,7 @@ bool nh_staged_search_run(nh_analysis *result, nh_error *error)
     result->counted = nh_count_memory_create();
     x.words = nh_dictionary_of(result->question->model);
     for (part p = 0; p < PARTS; p++) {
-        /* the motion is integrated with what the fits have left */
-        if (p != INTEGRATED) nh_budget_begin(p == ELSEWHERE ? INFINITY : result->question->options.work);
+        if (p != FITTED && p != INTEGRATED) nh_budget_begin(p == ELSEWHERE ? INFINITY : result->question->options.work);
         for (size_t i = 0; i < ROWS; i++)
             if (rows[i].part == p) run_row(&x, i);
         spent |= p != CONSTRUCTED && nh_budget_spent();
