@@ -109,6 +109,34 @@ Test(events, directions)
 }
 
 /* A throw from the ground: the start is a zero and ends nothing; also against the time. */
+/* Where a function has no value its sign may change without a zero: that place is told, and is no event. */
+Test(events, a_sign_that_changes_where_there_is_no_value)
+{
+    static const struct {
+        const char *function;
+        double zero; /* its only one until t = 3, or NAN */
+        bool everywhere;
+    } cases[] = {{"(x-1)*sqrt((x-1)^2-0.01)", NAN, false},      {"(x-1)/sqrt((x-1)^2-1e-9)", NAN, false},
+                 {"(x-1)*(x-2)*sqrt((x-1)^2-0.01)", 2, false},
+                 {"(x-2)*sqrt((x-1)^2-0.25)/(x-1)", 2, false},  {"(x-1)*sqrt((x-2)^2-0.01)/abs(x-2)", 1, false},
+                 {"(x-1)*sqrt(1+(x-1)^2)", 1, true}};
+    place p = place_make();
+    write_here(&p, "free.yaml", "name: free\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "free.yaml --initial \"x'=1\" --until 3 --event \"%s\"", cases[i].function);
+        nh_json *root = simulated(&p, line);
+        size_t n = count(event(root, 0));
+        for (size_t k = 0; k < n; k++) {
+            double t = time_of(event(root, 0), k);
+            cr_expect(fabs(t - cases[i].zero) < 1e-8, "%s: an event at t = %.12g", line, t);
+        }
+        if (cases[i].everywhere) cr_expect_eq(n, (size_t)!isnan(cases[i].zero), "%s: %zu events", line, n);
+        nh_json_free(root);
+    }
+    place_clear(&p);
+}
+
 Test(events, at_the_start)
 {
     place p = place_make();

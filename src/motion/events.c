@@ -17,6 +17,8 @@ static const double far_off = 1e3;
 static const double distant = 1e-4; /* and as a part of the step */
 /* nearer to an end of the step, in final intervals, a jump cannot be told from a zero */
 static const double few = 100;
+/* a value is zero up to rounding within so many tolerances, or as this part of another one */
+static const double slack = 10, small_part = 1e-6;
 static const double most_jump = 0.5; /* next to a jump a value is a larger part of that farther off */
 
 struct nh_event_search {
@@ -25,6 +27,7 @@ struct nh_event_search {
     nh_sign_changes change;
     double *raw;        /* values and sizes at one more time, 2 count */
     bool *pending;      /* per function: it was zero at the beginning of the whole motion, and has had no sign since */
+    bool *lacks;        /* per function: it had no value somewhere since its last change of sign */
     double before, now; /* ends of the last step */
     double *first, *at; /* the initial state of the motion; values and floors */
     size_t which;       /* the function whose zero is wanted */
@@ -42,7 +45,9 @@ static bool values_and_floors(double t, const double *z, double *value, void *co
     if (!c->watch->value(t, z, value, c->watch->context)) return false;
     for (size_t i = 0; i < n; i++) {
         value[n + i] *= c->watch->tolerance;
-        if (isnan(value[i]) && isnan(c->unknown)) c->unknown = t;
+        if (!isnan(value[i])) continue;
+        c->lacks[i] = true;
+        if (isnan(c->unknown)) c->unknown = t;
     }
     return true;
 }
@@ -77,10 +82,12 @@ static outcome solve(nh_event_search *c, double near, double far, double *root)
     gsl_function f = {.function = value_of_one, .params = c};
     double at_near = value_of_one(near, c), at_far = value_of_one(far, c), low = fmin(near, far),
            high = fmax(near, far);
-    *root = at_near == 0 ? near : far;
-    if (!(at_near * at_far < 0)) { /* one of them is zero up to rounding */
-        *root = fabs(at_near) < fabs(at_far) ? near : far;
-        return isfinite(at_near) && isfinite(at_far) ? ZERO_FOUND : NOTHING_FOUND;
+    *root = fabs(at_near) < fabs(at_far) ? near : far;
+    if (!(at_near * at_far < 0)) { /* one of them is zero up to rounding, or the sign changed where there is no value */
+        if (!c->lacks[c->which]) return ZERO_FOUND;
+        double floor = slack * c->watch->tolerance * c->raw[c->watch->count + c->which],
+               rounding = small_part * fmax(fabs(at_near), fabs(at_far));
+        return fmin(fabs(at_near), fabs(at_far)) <= fmax(floor, rounding) ? ZERO_FOUND : NOTHING_FOUND;
     }
     gsl_root_fsolver *solver = nh_memory_got(gsl_root_fsolver_alloc(gsl_root_fsolver_brent));
     double enough = roundings * DBL_EPSILON * fmax(fabs(low), fabs(high));
@@ -173,6 +180,7 @@ static bool take_zeros(nh_event_search *c, double near, double far, nh_motion *m
         s->side[i] = sign;
         c->which = i;
         outcome what = solve(c, near, far, &root);
+        c->lacks[i] = false;
         if (what == JUMP_FOUND) c->jumped = root;
         if (what == NOTHING_FOUND && isnan(c->unknown)) c->unknown = root;
         if (what != ZERO_FOUND) continue;
@@ -247,6 +255,7 @@ nh_event_search *nh_event_search_create(const nh_motion *motion, const nh_flow_o
                                   .inside_context = inside};
     c->raw = nh_alloc_array(2 * n, sizeof *c->raw);
     c->pending = nh_alloc_array(n, sizeof *c->pending);
+    c->lacks = nh_alloc_array(n, sizeof *c->lacks);
     c->first = nh_alloc_array(size + 2 * n, sizeof *c->first);
     c->at = c->first + size;
     memcpy(c->first, motion->end_state, size * sizeof *c->first);
@@ -261,6 +270,7 @@ void nh_event_search_free(nh_event_search *c)
     if (!c) return;
     nh_sign_changes_clear(&c->change);
     nh_free(c->raw);
+    nh_free(c->lacks);
     nh_free(c->pending);
     nh_free(c->first);
     nh_free(c);
