@@ -9,19 +9,11 @@
 #include "graph/node.h"
 
 /* sign(u) as |u|/u, of which the normal form knows the square. */
-static nh_ex without_signs(nh_dag *d, nh_ex e)
+static nh_ex without_sign(void *dag, nh_ex call)
 {
-    enum { most = 32 };
-    NH_LIST(call);
-    nh_ex by[most];
-    size_t n = nh_functions_in(d, e, &call), signs = 0;
-    for (size_t i = 0; i < n && n <= most; i++) {
-        if (nh_function_of(d, call[i]) != NH_SIGN) continue;
-        nh_ex u = nh_child(d, call[i], 0);
-        by[signs] = nh_div(d, nh_call(d, NH_ABS, u), u);
-        call[signs++] = call[i];
-    }
-    return signs ? nh_substitute(d, e, signs, call, by) : e;
+    if (nh_function_of(dag, call) != NH_SIGN) return 0;
+    nh_ex u = nh_child(dag, call, 0);
+    return nh_div(dag, nh_call(dag, NH_ABS, u), u);
 }
 
 /* sin and cos of 2 a, and of 2 a + pi, by those of a, where one of these stands in e: equal radicands then have one
@@ -117,7 +109,7 @@ static nh_ex fourth_roots(const nh_model *model, nh_ex e)
 nh_ex nh_rate_form(const nh_model *model, nh_ex e, bool *decisive)
 {
     nh_dag *d = model->dag;
-    nh_ex positive = without_signs(d, e);
+    nh_ex positive = nh_substitute_calls(d, e, without_sign, d);
     if (positive == e && !nh_named_function_has_elliptic(d, e)) return e;
     return squares_out(model, fourth_roots(model, in_half_angles(d, positive)), decisive);
 }
