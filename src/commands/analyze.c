@@ -17,7 +17,7 @@
 #include "commands/analyze_known.h"
 #include "commands/analyze_models.h"
 #include "commands/figures.h"
-#include "search/constraint_integrals.h"
+#include "search/searches.h"
 #include "search/staged_search.h"
 #include "search/symmetries.h"
 #include "search/missing.h"

@@ -17,7 +17,6 @@
 #ifndef NH_REGION_H
 #define NH_REGION_H
 
-#include "integrals/branch_end.h"
 #include "integrals/crossings.h"
 
 typedef enum { NH_REGION_ABOVE, NH_REGION_BELOW, NH_REGION_APART, NH_REGION_PARTS, NH_REGION_IMPULSE } nh_region_kind;

@@ -1,4 +1,4 @@
-#include "motion/arkode.h"
+#include "motion/integrators.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,6 @@
 #include "base/effort.h"
 #include "base/linalg.h"
 #include "base/memory.h"
-#include "motion/safeguards.h"
 #include "motion/wall_steps.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"

@@ -2,7 +2,7 @@
  *
  * CVODE is driven step by step and the output times are interpolated in each step: so the limit of steps is exact, a
  * cancellation is seen after every step, and the choice of output times does not change the motion. */
-#include "motion/cvode.h"
+#include "motion/integrators.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,7 +17,6 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "motion/events.h"
-#include "motion/gsl_odeiv.h"
 #include "motion/wall_steps.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"

@@ -1,4 +1,4 @@
-#include "motion/gsl_odeiv.h"
+#include "motion/integrators.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,7 +9,6 @@
 
 #include "base/effort.h"
 #include "base/memory.h"
-#include "motion/safeguards.h"
 #include "motion/wall_steps.h"
 #include "motion/sizes.h"
 #include "motion/stepping.h"

@@ -6,10 +6,98 @@
 #include "base/budget.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "exact/normal.h"
+#include "exact/relation.h"
+#include "graph/dag.h"
+#include "graph/print.h"
+#include "search/analysis.h"
 #include "search/counted.h"
 #include "search/currents.h"
 #include "search/missing_internal.h"
-#include "search/relations.h"
+
+/* ---- Polynomial relations among integrals that are polynomials in the velocities ---- */
+
+typedef struct {
+    nh_analysis *r;
+    size_t count;
+    nh_ex *phi, *symbol;
+} ring;
+
+static void put(ring *x, const nh_current *f)
+{
+    if (!f->proof.proved || f->series) return;
+    x->symbol[x->count] = nh_symbol_fresh(x->r->model->dag, f->name);
+    x->phi[x->count++] = f->phi;
+}
+
+static nh_ex product(nh_dag *d, size_t n, const nh_ex *factor, const uint8_t *exponent)
+{
+    nh_ex e = nh_int(d, 1);
+    for (size_t k = 0; k < n; k++) e = nh_mul(d, e, nh_powi(d, factor[k], exponent[k]));
+    return e;
+}
+
+/* The leading product in terms of the others.  False: the coefficients are not found. */
+static bool exact(const ring *x, const nh_count_relation *q, nh_further_relation *out)
+{
+    nh_analysis *result = x->r;
+    nh_dag *d = result->model->dag;
+    nh_ex *value = nh_alloc_array(q->terms + 1, sizeof *value), *name = nh_alloc_array(q->terms + 1, sizeof *name),
+          *c = nh_alloc_array(q->terms + 1, sizeof *c);
+    for (size_t i = 0; i < q->terms; i++) {
+        value[i] = product(d, x->count, x->phi, q->exponent + i * x->count);
+        name[i] = product(d, x->count, x->symbol, q->exponent + i * x->count);
+    }
+    size_t last = q->terms - 1;
+    bool found = nh_relation_find(d, q->terms, value, result->system->parameters, result->model->parameter,
+                                  (size_t)result->options.proof_terms, c) == NH_RELATION_UNIQUE;
+    found = found && !nh_is_zero(d, c[last]);
+    if (found) {
+        nh_ex right = nh_int(d, 0);
+        for (size_t i = 0; i < last; i++)
+            right = nh_sub(d, right, nh_mul(d, nh_simplify(d, nh_div(d, c[i], c[last])), name[i]));
+        char *lhs = nh_print_string(d, name[last]), *rhs = nh_print_string(d, right);
+        *out = (nh_further_relation){nh_arena_strdup(result->arena, lhs), nh_arena_strdup(result->arena, rhs)};
+        nh_free(rhs);
+        nh_free(lhs);
+    }
+    nh_free(c);
+    nh_free(name);
+    nh_free(value);
+    return found;
+}
+
+static size_t highest(const nh_analysis *result)
+{
+    size_t degree = 0;
+    for (size_t k = 0; k < result->furthers; k++)
+        if (result->further[k].degree > degree) degree = result->further[k].degree;
+    return degree;
+}
+
+/* Among the currents and the further integrals: which products are related is seen modulo a prime (count/count.h),
+ * the coefficients are exact, over the parameters.  Fills result->relation. */
+static void find_relations(nh_analysis *result)
+{
+    enum { longest = 60 };
+    size_t room = result->count + result->furthers + 1;
+    ring x = {.r = result, .phi = nh_alloc_array(room, sizeof(nh_ex)), .symbol = nh_alloc_array(room, sizeof(nh_ex))};
+    nh_count_relation found[NH_MOST_RELATIONS];
+    for (size_t k = 0; k < result->count; k++) put(&x, &result->found[k]);
+    for (size_t k = 0; k < result->furthers; k++) put(&x, &result->further[k].current);
+    size_t n = 0;
+    for (size_t degree = 2 * highest(result); degree > 0 && n == 0;
+         degree--) /* lower where there are too many products */
+        n = nh_count_relations(result->model, x.count, x.phi, degree, result->arena, NH_MOST_RELATIONS, found);
+    result->relation = nh_arena_alloc(result->arena, (n + 1) * sizeof *result->relation);
+    for (size_t i = 0; i < n && !nh_late(); i++)
+        if (found[i].terms > 1 && found[i].terms <= longest)
+            result->relations += exact(&x, &found[i], &result->relation[result->relations]);
+    nh_free(x.symbol);
+    nh_free(x.phi);
+}
+
+/* ---- missing ---- */
 
 typedef nh_missing_search search;
 
@@ -177,7 +265,7 @@ void nh_missing_name_further(nh_analysis *result)
 {
     for (size_t k = 0; k < result->furthers; k++)
         result->further[k].current.name = nh_currents_name(result, result->count + result->pieces + k + 1);
-    if (result->furthers) nh_relations_find(result);
+    if (result->furthers) find_relations(result);
 }
 
 void nh_missing_count(nh_analysis *result, bool searched)

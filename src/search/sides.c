@@ -1,4 +1,4 @@
-#include "search/sides.h"
+#include "search/searches.h"
 
 #include <math.h>
 

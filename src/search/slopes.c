@@ -1,4 +1,4 @@
-#include "search/slopes.h"
+#include "search/searches.h"
 
 #include <string.h>
 
