@@ -11,7 +11,7 @@
 #include "graph/dag.h"
 #include "integrals/exact_points.h"
 #include "integrals/independence.h"
-#include "search/branch.h"
+#include "search/search.h"
 #include "search/theory.h"
 #include "problem/time_scale.h"
 

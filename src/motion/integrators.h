@@ -2,8 +2,44 @@
 #ifndef NH_INTEGRATORS_H
 #define NH_INTEGRATORS_H
 
+#include "geometry/model.h"
+
+#include <stdbool.h>
+#include <stddef.h>
 #include "motion/motion.h"
-#include "motion/programs.h"
+
+/* The functions of a model that methods with a fixed step evaluate, each compiled at its first use and kept
+ * for every later run.  Derivatives are exact, by z = (q, w), column-major.  For models without implicit velocities. */
+
+typedef enum {
+    NH_PROGRAM_RATE,     /* f (size) */
+    NH_PROGRAM_FLOW,     /* f (size), df/dz (size x size) */
+    NH_PROGRAM_MOMENTUM, /* rho, p, c = dL/dq + Q (m each), R (m x n, row-major), and d/dz of (rho, p, c) (3m x size) */
+    NH_PROGRAM_PAIR,     /* R (m x n), M (n x n), G (n x n), row-major */
+    NH_PROGRAM_GRADIENT, /* dE/dz (size), E, Gamma(E) */
+    NH_PROGRAMS
+} nh_program;
+
+typedef struct nh_programs nh_programs;
+/* Each program is compiled when it is first evaluated.  Keeps the model, which has to outlive it; the caller frees
+ * it. */
+nh_programs *nh_programs_create(const nh_model *model);
+void nh_programs_free(nh_programs *programs);
+const nh_model *nh_programs_model(const nh_programs *programs);
+
+/* Values at (t, z), until the same program is evaluated again. */
+const double *nh_programs_at(nh_programs *programs, nh_program which, double t, const double *z);
+/* f (size), as a right-hand side of motion.h; the context is an nh_programs. */
+bool nh_programs_rate(double t, const double *z, double *rate, void *programs);
+/* The compiled program over points (t, q, w), for callers that evaluate it in other arithmetic. */
+const nh_tape *nh_programs_tape(nh_programs *programs, nh_program which);
+/* The fastest rate as a frequency: the largest |f_j| divided by the largest value that the chart allows z_j. */
+double nh_programs_pace(const nh_model *model, const double *f);
+/* Numbers of evaluations and of compiled programs so far. */
+long nh_programs_evaluations(const nh_programs *programs);
+size_t nh_programs_compiled(const nh_programs *programs);
+
+/* ---- integrators ---- */
 
 /* By CVODE [Hindmarsh2005], with dense output, events and a report of the reason when a motion ends early.
  *
@@ -93,5 +129,28 @@ const char *nh_relaxation_refused(nh_programs *programs);
 /* Integrates as nh_flow does. options->step: the step, made a little smaller so that steps end at the output times. */
 nh_motion *nh_relaxation(nh_programs *programs, nh_relaxation_rule rule, const double *initial, size_t count,
                          const double *times, const nh_flow_options *options, nh_error *error);
+
+/* The coefficients of GSL's explicit pair of order 8, read from the stepper itself, and its steps for many
+   motions at once. */
+
+enum { NH_MOST_STAGES = 16 };
+
+typedef struct {
+    int stages;
+    double a[NH_MOST_STAGES][NH_MOST_STAGES], b[NH_MOST_STAGES], c[NH_MOST_STAGES];
+    double e[NH_MOST_STAGES]; /* weights of the error estimate */
+} nh_tableau;
+
+/* Stage i: k_i = f(t + c_i h, z + h a_ij k_j);  the new state is z + h b_i k_i, its error h e_i k_i.  False when out of
+   memory. */
+bool nh_tableau_rk8pd(nh_tableau *tableau);
+
+/* to = z + h (weight_j k_j summed over the stages), `count` numbers; k_j at k + j * stride. */
+void nh_tableau_add(size_t count, int stages, const double *weight, double h, const double *k, size_t stride,
+                    const double *z, double *to);
+
+/* Of each lane, max_i |error_i| / (atol_i + rtol max(|z_i|, |next_i|)); state i of lane l at [i * lanes + l]. */
+void nh_tableau_error(size_t kept, size_t lanes, double rtol, const double *atol, const double *error, const double *z,
+                      const double *next, double *lane);
 
 #endif

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "motion/tableau.h"
 #include "motion/stepping.h"
 
 enum { most_iterations = 20, most_halvings = 3 };
