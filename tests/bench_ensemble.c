@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "motion/cvode.h"
+#include "motion/integrators.h"
 #include "motion/ensemble.h"
 
 enum { members = 10000, repetitions = 3, outputs = 2 };

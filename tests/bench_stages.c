@@ -1,4 +1,4 @@
-/* bench_stages: what each row of the search (search/staged_search.h) finds that the others do not.
+/* bench_stages: what each row of the search (search/staged_search.c) finds that the others do not.
  *
  *     bench_stages FOLDER [base|stored|greedy|main|selections|rows|leave|whole|all [SET]]     prints the page docs/stages.md
  *
@@ -18,7 +18,7 @@
 #include "perturbed.h"
 #include "published.h"
 #include "random_system.h"
-#include "search/staged_search.h"
+#include "search/search.h"
 #include "unseen.h"
 
 enum { MOST_TASKS = 600, MOST_RESULTS = 300, MOST_FORMULAS = 24, RANDOM_SYSTEMS = 60, SETS = 5, longest_shown = 110 };

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "motion/midpoint.h"
+#include "motion/integrators.h"
 #include "document/benchmark.h"
 #include "commands/robustness.h"
 

@@ -5,7 +5,7 @@
 
 #include "commands/analyze.h"
 #include "scratch.h"
-#include "search/agreement.h"
+#include "search/search.h"
 #include "sweep.h"
 
 typedef struct {

@@ -2,7 +2,7 @@
 #include <criterion/criterion.h>
 #include <math.h>
 
-#include "exact/ball_eigenvalues.h"
+#include "exact/ball_matrix.h"
 #include "exact/ball_fit.h"
 #include "graph/dag.h"
 #include "graph/function.h"

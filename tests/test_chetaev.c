@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "motion/cvode.h"
+#include "motion/integrators.h"
 #include "motion/chetaev.h"
 
 static void grid(size_t count, double from, double to, double *times)

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "graph/diff.h"
-#include "count/closed_primitives.h"
+#include "count/closed_words.h"
 #include "count/construct.h"
 #include "count/construct_rates.h"
 #include "graph/dag.h"

@@ -6,7 +6,7 @@
 #include "exact/normal.h"
 #include "count/completeness.h"
 #include "count/count_internal.h"
-#include "count/one_side.h"
+#include "integrals/region.h"
 #include "graph/dag.h"
 #include "problem/analysis_file.h"
 #include "names.h"
@@ -674,7 +674,7 @@ Test(count, a_side_has_what_holds_there)
                {x, NH_REGION_APART, true}, {x, NH_REGION_PARTS, false}, {y, NH_REGION_IMPULSE, true}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         nh_region region = {.count = 1, .wall = {row[i].wall}, .kind = {row[i].kind}};
-        cr_expect_eq(nh_one_side_within(p.model, &region), row[i].within, "%zu", i);
+        cr_expect_eq(nh_region_has_probe(p.model, &region), row[i].within, "%zu", i);
     }
     problem_clear(&p);
 }

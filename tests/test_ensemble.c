@@ -1,7 +1,7 @@
 /* Many motions at once: each is that of a motion of its own; the coefficients are those of the method. */
 #include "mechanics.h"
 #include "motion/ensemble.h"
-#include "motion/tableau.h"
+#include "motion/integrators.h"
 
 enum { COUNT = 5 };
 

@@ -5,8 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "motion/arkode.h"
-#include "motion/cvode.h"
+#include "motion/integrators.h"
 
 /* ---- systems ---- */
 

@@ -5,7 +5,7 @@
 #include "exact/normal.h"
 #include "reduction/chain.h"
 #include "reduction/group.h"
-#include "reduction/joint_fields.h"
+#include "reduction/joint.h"
 
 #define HEAD "parameters: [{name: g, value: 9.81}, {name: al, value: 0.4}, {name: A, value: 0.4}, {name: m, value: 1.2}]\n"
 

@@ -9,7 +9,6 @@
 #include "exact/normal.h"
 #include "graph/dag.h"
 #include "integrals/affine_field.h"
-#include "integrals/centre_of_mass.h"
 #include "integrals/noether_equation.h"
 #include "integrals/prove.h"
 

@@ -5,7 +5,7 @@
 #include "oracle.h"
 #include "sweep.h"
 
-#include "motion/cvode.h"
+#include "motion/integrators.h"
 #include "motion/validation.h"
 
 static const double TIGHT = 1e-12;

@@ -401,7 +401,7 @@ Test(piecewise, smooth_and_rational_currents_hold_everywhere)
         for (size_t k = 0; k < 3; k++) {
             nh_ex e = 0, phi = 0;
             cr_assert(nh_system_expression_text(system, "test", current[i][k], 0, NULL, &e, &error) && nh_analysis_file_to_chart(model, e, &phi, &error), "%s", error.what);
-            nh_region region = nh_region_of(model, &terrain, phi, 20, &options, arena);
+            nh_region region = nh_region_of(model, &terrain, phi, 20, false, &options, arena);
             cr_expect_eq(region.count, 0, "%s: %s", current[i][k], nh_region_text(model->dag, &region, arena));
         }
         nh_arena_free(arena);

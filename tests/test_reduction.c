@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "motion/cvode.h"
+#include "motion/integrators.h"
 #include "motion/dynamics.h"
 #include "reduction/chaplygin.h"
 #include "reduction/group.h"

@@ -6,7 +6,6 @@
 
 #include "count/construct.h"
 #include "count/scaling.h"
-#include "count/solution_matrix.h"
 #include "graph/num.h"
 
 /* Equations that are opened for counting. */

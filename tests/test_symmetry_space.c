@@ -2,7 +2,7 @@
 #include <cjson/cJSON.h>
 #include <math.h>
 
-#include "integrals/bracket_fields.h"
+#include "integrals/bracket.h"
 #include "geometry/closure.h"
 #include "integrals/symmetry.h"
 #include "exact/relation_space.h"

@@ -6,7 +6,7 @@
 
 #include "catalogue.h"
 #include "scratch.h"
-#include "search/staged_search.h"
+#include "search/search.h"
 #include "sweep.h"
 #include "unseen.h"
 

@@ -1,5 +1,5 @@
 /* Sparse elimination of a pencil with pivots that keep it linear in the parameter. */
-#include "classify/sparse_pencil.h"
+#include "classify/staircase.h"
 
 #include <stdlib.h>
 #include <string.h>

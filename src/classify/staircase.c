@@ -9,7 +9,6 @@
 
 #include "base/memory.h"
 #include "base/progress.h"
-#include "classify/sparse_pencil.h"
 
 /* The coefficients of the powers of the parameter, the constant one first. */
 typedef struct {

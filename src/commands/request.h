@@ -57,7 +57,7 @@ typedef struct nh_request {
     double spread;  /* of their initial states about the given one, relative to max(|z_i|, 1); 0: as usual */
     bool project;   /* moves velocities that violate the constraints to the nearest that do not */
     bool equations; /* of analyze, verify and reduce: writes out the objects of the theory */
-    /* of analyze: does not search; rows of the search (search/staged_search.h) that a developer leaves out */
+    /* of analyze: does not search; rows of the search (search/staged_search.c) that a developer leaves out */
     bool model_only;
     uint64_t left_out;
     /* of verify (and one more column of a motion, Phi, for its page); "Z0=1; phi=phi'"; of verify, classify, scan,

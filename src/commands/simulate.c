@@ -9,6 +9,7 @@
 
 #include "graph/diff.h"
 #include "graph/terms.h"
+#include "integrals/region.h"
 
 enum { default_outputs = 100, most_outputs = 10000000, most_comparisons = 4 };
 /* units of effort: a motion that needs less is compared with that of the whole model, which may need as much */
@@ -249,6 +250,17 @@ static void draw_finely(nh_simulation *s, const nh_request *q, const nh_trajecto
     nh_free(times);
 }
 
+/* Functions at whose zeros motions have an impulse, in the simulation's memory; returns their number.  Where the
+ * Lagrangian jumps, or the constraints begin to allow other velocities, the velocities of a motion jump.  The equations
+ * of motion on the two sides do not determine the jump, so motions end there (integrals/region.h). */
+static size_t impulses_of(nh_simulation *s, const nh_options *options, const nh_ex **impulse)
+{
+    nh_terrain *terrain = nh_arena_alloc(s->arena, sizeof *terrain);
+    *terrain = nh_terrain_of(s->model, options, s->arena);
+    *impulse = terrain->impulse;
+    return terrain->impulses;
+}
+
 const nh_trajectory *nh_simulation_drawn(const nh_simulation *s) { return s->drawn ? s->drawn : s->trajectory; }
 
 static bool integrate(nh_simulation *s, const nh_request *q, const nh_state *initial, size_t count, const double *times,
@@ -274,7 +286,7 @@ static bool integrate(nh_simulation *s, const nh_request *q, const nh_state *ini
     nh_event *event = nh_arena_alloc(s->arena, (s->events + 1) * sizeof *event);
     for (size_t i = 0; i < s->events; i++) event[i] = s->event[i].event;
     request.events = s->events, request.event = event;
-    request.impulses = nh_simulate_impulses(s, &options, &request.impulse);
+    request.impulses = impulses_of(s, &options, &request.impulse);
     nh_ex *known;
     if (!use_method(s, q, times, &request, error)) return false;
     if (request.smallest) request.currents = known_currents(s, &known), request.current = known;

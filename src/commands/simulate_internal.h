@@ -11,10 +11,6 @@ const char *nh_simulate_words(nh_simulation *s, const nh_closed_subsystem *scene
 /* Adds --event, --section and --axes, after the columns. */
 bool nh_simulate_events(nh_simulation *s, const nh_request *request, nh_error *error);
 
-/* Functions at whose zeros motions have an impulse (integrals/region.h), in the simulation's memory; returns their
- * number. */
-size_t nh_simulate_impulses(nh_simulation *s, const nh_options *options, const nh_ex **impulse);
-
 /* Computes an ensemble instead of the one motion that `motion` describes. */
 bool nh_simulate_many(nh_simulation *s, const nh_request *request, const nh_trajectory_request *motion,
                       nh_error *error);

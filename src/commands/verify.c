@@ -11,7 +11,7 @@
 #include "graph/dag.h"
 #include "integrals/exact_points.h"
 #include "integrals/independence.h"
-#include "search/branch.h"
+#include "search/search.h"
 #include "search/theory.h"
 #include "problem/time_scale.h"
 
@@ -202,8 +202,7 @@ static void delimit(nh_verification *v, const nh_options *options)
 {
     nh_terrain terrain = nh_terrain_of(v->model, options, v->arena);
     double digits = v->proof.proved && !v->proof.sided ? 0 : v->proof.digits / 2;
-    nh_region region = nh_region_of(v->model, &terrain, v->current, digits, options, v->arena);
-    if (v->proof.sided && region.count) region = nh_region_of_pairs(v->model);
+    nh_region region = nh_region_of(v->model, &terrain, v->current, digits, v->proof.sided, options, v->arena);
     v->region = nh_region_text(v->model->dag, &region, v->arena);
     v->conserved = nh_region_to_the_end(&region);
 }

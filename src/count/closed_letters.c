@@ -1,6 +1,6 @@
 /* The letters of a system: bases of powers with their exponents, angles and exponents of the Lagrangian, the equations
  * of motion and the determinant of the inertia. */
-#include "count/closed_letters.h"
+#include "count/closed_words.h"
 
 #include <math.h>
 
@@ -17,7 +17,7 @@ enum { largest_form = 2000, largest_inertia = 4, least_down = 1 };
 
 /* ---- the list ---- */
 
-static nh_letter *letter_of(nh_letters *l, nh_letter_kind kind, nh_ex base)
+static nh_letter *letter_of(nh_closed_letters *l, nh_letter_kind kind, nh_ex base)
 {
     for (size_t i = 0; i < l->count; i++)
         if (l->item[i].kind == kind && l->item[i].base == base) return &l->item[i];
@@ -56,7 +56,7 @@ static nh_num common(nh_num a, nh_num b)
 }
 
 /* The letter for an argument: an existing letter of a rational multiple is given a smaller unit. */
-static nh_letter *direction(nh_dag *d, nh_letters *l, nh_letter_kind kind, nh_ex argument, double *sign)
+static nh_letter *direction(nh_dag *d, nh_closed_letters *l, nh_letter_kind kind, nh_ex argument, double *sign)
 {
     nh_parts whole;
     nh_parts_make(d, true, argument, &whole);
@@ -85,7 +85,7 @@ static nh_letter *direction(nh_dag *d, nh_letters *l, nh_letter_kind kind, nh_ex
     return found;
 }
 
-static void take_function(const nh_jet_equations *x, nh_letters *l, nh_ex e)
+static void take_function(const nh_jet_equations *x, nh_closed_letters *l, nh_ex e)
 {
     nh_dag *d = x->dag;
     nh_letter *found;
@@ -129,7 +129,7 @@ static nh_ex positive(const nh_jet_equations *x, nh_ex base)
 }
 
 /* `less`: by how much the lowest exponent of an integral is expected above this one. */
-static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_num exponent, double less)
+static void take_power(const nh_jet_equations *x, nh_closed_letters *l, nh_ex base, nh_num exponent, double less)
 {
     nh_dag *d = x->dag;
     bool function = nh_kind_of(d, base) == NH_FUNCTION;
@@ -154,7 +154,7 @@ static void take_power(const nh_jet_equations *x, nh_letters *l, nh_ex base, nh_
     else found->up = fmax(found->up, value);
 }
 
-static void take_expression(const nh_jet_equations *x, nh_letters *l, nh_ex e, double less)
+static void take_expression(const nh_jet_equations *x, nh_closed_letters *l, nh_ex e, double less)
 {
     nh_dag *d = x->dag;
     NH_LIST(found);
@@ -206,7 +206,7 @@ static bool is_square(const nh_jet_equations *x, nh_ex e)
 
 /* Is the root of `base` a root of the system times coordinates, but for its sign?  Words with both would be related, in
  * a way that proofs do not know. */
-static bool has_root(const nh_jet_equations *x, const nh_letters *l, nh_ex base)
+static bool has_root(const nh_jet_equations *x, const nh_closed_letters *l, nh_ex base)
 {
     nh_dag *d = x->dag;
     bool found = false;
@@ -225,7 +225,7 @@ static bool is_odd(const nh_dag *d, nh_ex exponent)
 
 /* The factors of an expression, as bases with half powers; coordinates, where their power is odd.  Common factors of a
  * sum's terms are divided out, unless `plain`: the quotient may be written with them again. */
-static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool plain)
+static void take_factors(const nh_jet_equations *x, nh_closed_letters *l, nh_ex e, bool plain)
 {
     nh_dag *d = x->dag;
     bool product = nh_kind_of(d, e) == NH_PRODUCT;
@@ -244,7 +244,7 @@ static void take_factors(const nh_jet_equations *x, nh_letters *l, nh_ex e, bool
     }
 }
 
-static void take_determinant(const nh_jet_equations *x, nh_letters *l)
+static void take_determinant(const nh_jet_equations *x, nh_closed_letters *l)
 {
     const nh_model *model = x->model;
     if (model->n <= largest_inertia)
@@ -253,7 +253,7 @@ static void take_determinant(const nh_jet_equations *x, nh_letters *l)
 
 /* The momenta of a frame in which the inertia is 1 have roots of the inertia: exp(u/2) where the inertia has exp(u).
  * `all`: also of sums and coordinates, which may cancel from the determinant, as in (r^2 - 1) T'^2 - r'^2/(r^2 - 1). */
-static void take_roots(const nh_jet_equations *x, nh_letters *l, bool all)
+static void take_roots(const nh_jet_equations *x, nh_closed_letters *l, bool all)
 {
     nh_dag *d = x->dag;
     double sign;
@@ -278,7 +278,7 @@ static void take_roots(const nh_jet_equations *x, nh_letters *l, bool all)
 /* ---- the coordinates ---- */
 
 /* Is `base` linear, in coordinates that are letters? */
-static bool is_linear(const nh_jet_equations *x, const nh_letters *l, size_t coordinates, nh_ex base)
+static bool is_linear(const nh_jet_equations *x, const nh_closed_letters *l, size_t coordinates, nh_ex base)
 {
     bool linear = true;
     for (size_t k = 0; k < x->coordinates && linear; k++) {
@@ -312,7 +312,7 @@ static bool only_inside(const nh_jet_equations *x, size_t n, const nh_ex *e, nh_
 
 /* The highest powers of coordinates in the potential: up to these, at most doubled, a power is as cheap as a
  * coordinate. */
-static void take_potential(const nh_jet_equations *x, nh_letters *l)
+static void take_potential(const nh_jet_equations *x, nh_closed_letters *l)
 {
     static const double most = 2;
     const nh_model *model = x->model;
@@ -335,7 +335,7 @@ static void take_potential(const nh_jet_equations *x, nh_letters *l)
 }
 
 /* The rates in coordinates of the equations: those of the shape have no cyclic coordinates. */
-static void take_rates(const nh_jet_equations *x, nh_letters *l, const nh_construct_rates *rates)
+static void take_rates(const nh_jet_equations *x, nh_closed_letters *l, const nh_construct_rates *rates)
 {
     nh_dag *d = x->dag;
     double sign;
@@ -360,7 +360,7 @@ static bool has_powers(const nh_construct_rates *rates, nh_ex coordinate)
 
 /* In t, as in cyclic coordinates, the rates are all that integrals contain: the powers of a letter of rates alone, up
  * to the highest rate.  Of rates with a small unit, as 1 and 1.001, these would be too many: they keep their price. */
-static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, const nh_construct_rates *rates)
+static void take_known(const nh_jet_equations *x, nh_closed_letters *l, size_t first, const nh_construct_rates *rates)
 {
     static const int64_t most = 6;
     for (size_t i = 0; rates && i < rates->count; i++) {
@@ -385,10 +385,10 @@ static void take_known(const nh_jet_equations *x, nh_letters *l, size_t first, c
         if (l->item[k].known > most) l->item[k].known = 0;
 }
 
-nh_letters nh_letters_of(nh_jet_equations *x, bool secular, const nh_construct_rates *rates)
+nh_closed_letters nh_closed_letters_of(nh_jet_equations *x, bool secular, const nh_construct_rates *rates)
 {
     const nh_model *model = x->model;
-    nh_letters l = {0};
+    nh_closed_letters l = {0};
     size_t n = 0;
     nh_ex *e = nh_alloc_array(model->m + model->n * model->n + model->n + 2, sizeof *e);
     e[n++] = model->Lbar;

@@ -1,10 +1,9 @@
 /* Polynomials of a coordinate, a sine or a cosine under roots, and functions whose derivatives have these roots:
  * elementary ones for quadratic polynomials, elliptic integrals, incomplete beta functions for two powers. */
-#include "count/closed_primitives.h"
 
 #include "exact/normal.h"
 #include "graph/diff.h"
-#include "count/closed_letters.h"
+#include "count/closed_words.h"
 #include "graph/dag.h"
 #include "graph/function.h"
 #include "graph/node.h"
@@ -186,7 +185,7 @@ static void along_circle(list *l, nh_ex base, nh_ex angle)
     }
 }
 
-static void of_letters(list *l, const nh_letters *letters)
+static void of_letters(list *l, const nh_closed_letters *letters)
 {
     for (size_t i = 0; i < letters->count; i++) {
         const nh_letter *a = &letters->item[i];
@@ -219,8 +218,8 @@ size_t nh_closed_primitives(const nh_model *model, bool time, size_t most, nh_ex
 {
     nh_jet_equations *x = nh_jet_equations_create(model, time, false);
     list l = {.equations = x, .dag = x->dag, .most = most, .out = out};
-    nh_letters letters = {0};
-    if (!x->obstacle) letters = nh_letters_of(x, false, NULL);
+    nh_closed_letters letters = {0};
+    if (!x->obstacle) letters = nh_closed_letters_of(x, false, NULL);
     of_letters(&l, &letters);
     nh_free(letters.item);
     nh_jet_equations_free(x);

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "exact/residue_matrix.h"
-#include "count/closed_letters.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/function.h"
@@ -233,7 +232,7 @@ static nh_ex only_coordinate(const nh_jet_equations *x, nh_ex e)
 
 /* Powers of q, exp(b q), and cos^i(c q) sin^j(c q) with i >= 0 and j = 0 or 1 are sums of q^a exp(lambda q), no pair
  * (a, lambda) twice: their products, also of several coordinates, are linearly independent. */
-static bool are_independent(const nh_jet_equations *x, const nh_letters *l)
+static bool are_independent(const nh_jet_equations *x, const nh_closed_letters *l)
 {
     for (size_t i = 0; i < l->count; i++) {
         const nh_letter *a = &l->item[i];
@@ -252,7 +251,7 @@ nh_closed_words *nh_closed_words_create(nh_jet_equations *x, double price, bool 
 {
     nh_closed_words *w = nh_alloc(sizeof *w);
     *w = (nh_closed_words){.equations = x, .most = price};
-    nh_letters letters = nh_letters_of(x, secular, rates);
+    nh_closed_letters letters = nh_closed_letters_of(x, secular, rates);
     w->independent = are_independent(x, &letters);
     for (size_t i = 0; i < letters.count; i++) put_letter(w, &letters.item[i]);
     nh_free(letters.item);

@@ -21,7 +21,9 @@
 #define NH_CLOSED_WORDS_H
 
 #include "count/construct_rates.h"
+#include "count/jet_equations.h"
 #include "count/scaling.h"
+#include "geometry/model.h"
 
 typedef struct {
     nh_ex shown, value; /* with parameters as symbols; as it is evaluated */
@@ -82,5 +84,41 @@ nh_ex nh_closed_words_expression(const nh_closed_words *words, size_t word);
 /* The series of all words, one after another.  False: another point is needed.  `work` counts products of residues. */
 bool nh_closed_words_evaluate(const nh_closed_words *words, const nh_jet_ring *ring, const nh_residue *coordinate,
                               nh_residue *out, double *work);
+
+/* Which functions a system's equations are made of (closed_words.h). */
+
+typedef enum { NH_LETTER_POWER, NH_LETTER_CIRCLE, NH_LETTER_EXPONENTIAL } nh_letter_kind;
+
+typedef struct {
+    nh_letter_kind kind;
+    nh_ex base;   /* what is taken to a power; or the argument of sin, cos, exp */
+    int64_t root; /* exponents are multiples of 1/root */
+    /* lowest and highest exponent in the system: an exponent is priced relative to these, or higher; 0: it does not
+     * occur */
+    double up, down;
+    double down_sine; /* of the sine; of cosines `down` holds the lowest exponent */
+    nh_ex unit;       /* a root in the base that the equations do not contain, which sines take; 0: none */
+    int64_t known;    /* powers up to this one have the rates of integrals in t, and no price; 0: not known */
+    bool linear;      /* its whole powers are polynomials in the coordinates, which are letters themselves */
+} nh_letter;
+
+typedef struct {
+    size_t count, capacity;
+    nh_letter *item;
+} nh_closed_letters;
+
+/* Finds the letters; the caller frees letters->item.  `secular`: also coordinates that occur only inside of functions,
+ * whose polynomials are many-valued on an angle.  `rates`: exponentials and waves in cyclic coordinates, or NULL. */
+nh_closed_letters nh_closed_letters_of(nh_jet_equations *equations, bool secular, const nh_construct_rates *rates);
+
+/* Antiderivatives of the roots and denominators that a system's equations have (closed_letters.h).
+ *
+ * A rolling body has x' = r w, and w may be a constant over sqrt(a + c cos(h)^2): so integrals over a coordinate occur
+ * in the constants of a motion. */
+
+/* Writes functions with these derivatives: 1/z and 1/sqrt(a + b z + c z^2) by z, where z is a coordinate, a sine or a
+ * cosine and the powers occur; z^k/sqrt(a + b z^n) by z, n up to 8; 1/sqrt(a - b sin(u)^2) and this root by u; sine and
+ * cosine themselves.  `time`: time counts as a coordinate.  Returns how many, at most `most`. */
+size_t nh_closed_primitives(const nh_model *model, bool time, size_t most, nh_ex *out);
 
 #endif

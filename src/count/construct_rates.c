@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "count/solution_matrix.h"
+#include "count/scaling.h"
 #include "graph/dag.h"
 #include "graph/num.h"
 

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "count/solution_matrix.h"
+#include "count/scaling.h"
 
 /* dependent_words: of so many words that are listed one is independent of the others, at least */
 enum { spare = 24, beyond_degree = 3, most_solutions = 600, dependent_words = 10 };

@@ -18,7 +18,7 @@
 #include <string.h>
 
 #include "base/progress.h"
-#include "exact/ball_eigenvalues.h"
+#include "exact/ball_matrix.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
 #include "graph/diff.h"

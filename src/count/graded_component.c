@@ -1,4 +1,4 @@
-#include "count/graded_component.h"
+#include "count/graded_solver_internal.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "count/graded_component.h"
+#include "count/graded_solver_internal.h"
 
 enum { cell_work = 50 }; /* an entry of a row takes as long as so many products */
 

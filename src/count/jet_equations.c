@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "exact/kernel.h"
-#include "count/one_side.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
@@ -25,9 +24,9 @@ static size_t quadratic(size_t n, size_t i, size_t j) { return 1 + n + i * n - i
 static nh_ex canonical(nh_jet_equations *x, nh_ex e)
 {
     nh_region *side = x->complete ? NULL : &x->side;
-    e = nh_one_side_of_roots(x->model, nh_one_side(x->model, e, side), side);
+    e = nh_region_roots_at_probe(x->model, nh_region_piece_at_probe(x->model, e, side), side);
     e = nh_canonical(x->dag, x->generic ? e : nh_model_values(x->model, e), largest_form);
-    nh_ex without = nh_one_side_of_roots(x->model, e, side);
+    nh_ex without = nh_region_roots_at_probe(x->model, e, side);
     return without == e ? e : nh_canonical(x->dag, without, largest_form);
 }
 
@@ -101,7 +100,7 @@ static bool affine(nh_jet_equations *x)
 static int sign_at_probe(void *equations, nh_ex e)
 {
     nh_jet_equations *x = equations;
-    return nh_one_side_sign(x->model, e, &x->side);
+    return nh_region_sign_at_probe(x->model, e, &x->side);
 }
 
 static nh_jet_point *new_point(nh_jet_equations *x)

@@ -8,6 +8,7 @@
 #ifndef NH_SCALING_H
 #define NH_SCALING_H
 
+#include "count/count_internal.h"
 #include "count/jet_equations.h"
 
 typedef struct {
@@ -30,5 +31,19 @@ bool nh_scaling_combine(const nh_scalings *scalings, nh_prime field, nh_residue 
  * another point afterwards. */
 void nh_scaling_weights(nh_jet_equations *equations, const nh_residue *scaling, nh_prime field, size_t functions,
                         const nh_ex *function, nh_residue *weight, bool *constant);
+
+/* What a symmetry does to the solutions of Gamma(Phi) = 0.
+ *
+ *     S = sum_k s_k(q) d/dq_k + sum_i sigma_i w_i d/dw_i,    [S, Gamma] = -tau Gamma,  tau constant,
+ *
+ * maps integrals to integrals and keeps their degree in the velocities, so that its values on the solutions are
+ * combinations of them. */
+
+/* Writes the N x N matrix of S, row by row, into out: S of solution j is the sum of out[i N + j] times solution i.
+ * `along`: s_k as series, one after another for all coordinates; `factor`: sigma . alpha for each monomial, or NULL.
+ * The solutions need all of their coefficients.  False where the series are too short to tell the solutions apart, or
+ * S leads out of their span.  *work grows by the products of residues. */
+bool nh_solution_matrix(const nh_counter *counter, const nh_count_series *series, const nh_graded_count *solutions,
+                        const nh_residue *along, const nh_residue *factor, nh_residue *out, double *work);
 
 #endif

@@ -1,5 +1,5 @@
 /* The matrix of a symmetry on the solutions, from values of random functionals on solutions and on their images. */
-#include "count/solution_matrix.h"
+#include "count/scaling.h"
 
 #include <string.h>
 

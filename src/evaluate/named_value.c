@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "evaluate/riemann.h"
 #include "graph/function.h"
 
 enum { least_bits = 64, most_bits = 4096, wanted_bits = 54, below_doubles = -1100 };

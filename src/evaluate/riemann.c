@@ -3,7 +3,7 @@
  * Its solutions are products of powers and 2F1 of (1 + i z)/2.  They are computed by Taylor series on a path from 0 to
  * z, because 2F1 is slow there, slowest where c = 3/4, and needs other formulas where exponents differ by whole
  * numbers. */
-#include "evaluate/riemann.h"
+#include "evaluate/named_value.h"
 
 #include <math.h>
 #include <string.h>

@@ -19,9 +19,11 @@ typedef struct {
 } root_search;
 
 /* exp(2 a + b), which graphs do not split, as a product of powers of the symbols for exp(a) and exp(b). */
-static nh_ex exponential(const root_search *x, nh_ex e)
+static nh_ex exponential(void *search, nh_ex e)
 {
+    const root_search *x = search;
     const nh_root_field *f = x->f;
+    if (nh_function_of(x->dag, e) != NH_EXP) return 0;
     nh_parts parts;
     nh_ex product = nh_int(x->dag, 1);
     nh_parts_make(x->dag, false, nh_child(x->dag, e, 0), &parts);
@@ -59,17 +61,7 @@ static nh_ex in_symbols(root_search *x, nh_ex e)
               to[] = {nh_div(d, nh_add(d, u, u), below), nh_div(d, nh_sub(d, one, square), below)};
         e = nh_substitute(d, e, 2, from, to);
     }
-    NH_LIST(call);
-    size_t calls = nh_functions_in(d, e, &call), exponentials = 0;
-    nh_ex *by = nh_alloc_array(calls + 1, sizeof *by);
-    for (size_t i = 0; i < calls; i++)
-        if (nh_function_of(d, call[i]) == NH_EXP) {
-            by[exponentials] = exponential(x, call[i]);
-            call[exponentials++] = call[i];
-        }
-    e = nh_substitute(d, e, exponentials, call, by);
-    nh_free(by);
-    return e;
+    return nh_substitute_calls(d, e, exponential, x);
 }
 
 /* Without roots: a quotient of polynomials in symbols and functions that are not related. */

@@ -191,3 +191,46 @@ size_t nh_walls_between(nh_dag *d, size_t n, const nh_ex *e, size_t inputs, cons
     }
     return count;
 }
+
+/* ---- on one side ---- */
+
+typedef struct {
+    nh_dag *d;
+    nh_ex (*sign)(void *context, nh_ex u);
+    void *context;
+} chosen;
+
+static nh_ex on_its_side(void *chosen_, nh_ex call)
+{
+    const chosen *c = chosen_;
+    nh_function f = nh_function_of(c->d, call);
+    nh_ex u = f == NH_ABS || f == NH_SIGN ? nh_child(c->d, call, 0) : 0, s = u ? c->sign(c->context, u) : 0;
+    return s && f == NH_ABS ? nh_mul(c->d, s, u) : s;
+}
+
+nh_ex nh_walls_piece(nh_dag *d, nh_ex e, nh_ex (*sign)(void *context, nh_ex u), void *context)
+{
+    chosen c = {d, sign, context};
+    nh_ex before = 0;
+    for (int level = 0; level < most_nested && e != before; level++) {
+        before = e;
+        e = nh_substitute_calls(d, e, on_its_side, &c);
+    }
+    return e;
+}
+
+nh_ex nh_walls_side(nh_wall_sides *sides, nh_ex u)
+{
+    nh_ex sign = nh_call(sides->dag, NH_SIGN, u);
+    for (size_t k = 0; k < sides->count; k++)
+        if (sides->sign[k] == sign) return sides->symbol[k];
+    sides->left_out |= sides->count == NH_MOST_SIDES;
+    if (sides->left_out) return 0;
+    sides->sign[sides->count] = sign;
+    return sides->symbol[sides->count++] = nh_symbol_fresh(sides->dag, "side");
+}
+
+nh_ex nh_walls_signs(const nh_wall_sides *sides, nh_ex e)
+{
+    return nh_substitute(sides->dag, e, sides->count, sides->symbol, sides->sign);
+}

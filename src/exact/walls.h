@@ -1,4 +1,4 @@
-/* walls: where an expression may jump or have a kink, although it is finite on both sides.
+/* walls: where an expression may jump or have a kink, although it is finite on both sides, and its pieces on the sides.
  *
  * Sums, products, whole powers, sin, exp, ... are analytic wherever they are finite: quotients of them have poles,
  * and no jumps.  What is left are the zero sets of
@@ -16,7 +16,7 @@
 
 #include "graph/expr.h"
 
-enum { NH_MOST_WALLS = 40, NH_MOST_WALL_PARTS = 16 };
+enum { NH_MOST_WALLS = 40, NH_MOST_WALL_PARTS = 16, NH_MOST_SIDES = 8 };
 
 typedef struct {
     size_t count;
@@ -40,5 +40,21 @@ void nh_walls_add_poles(nh_walls *walls, nh_dag *dag, nh_ex e);
 /* The walls of n expressions that can be crossed when the symbols `in` change: no ends of roots, no constants.  Writes
  * them into wall (room for NH_MOST_WALLS) and returns their number. */
 size_t nh_walls_between(nh_dag *dag, size_t n, const nh_ex *e, size_t inputs, const nh_ex *in, nh_ex *wall);
+
+/* The piece of e on one side of each wall u = 0 of |u| and sign(u): s u and s in their places, with s = sign(context,
+ * u); where that is 0 they stay.  The outer ones come first: u is as it stands in e. */
+nh_ex nh_walls_piece(nh_dag *dag, nh_ex e, nh_ex (*sign)(void *context, nh_ex u), void *context);
+
+/* Sides that are not chosen: symbols s for sign(u), for which s^2 = 1. */
+typedef struct {
+    nh_dag *dag;
+    size_t count;
+    nh_ex sign[NH_MOST_SIDES], symbol[NH_MOST_SIDES]; /* sign(u), and s */
+    bool left_out;                                    /* there are more */
+} nh_wall_sides;
+/* The symbol for sign(u), a new one where there is none for it yet; 0: there is no room. */
+nh_ex nh_walls_side(nh_wall_sides *sides, nh_ex u);
+/* e with the signs for their symbols. */
+nh_ex nh_walls_signs(const nh_wall_sides *sides, nh_ex e);
 
 #endif

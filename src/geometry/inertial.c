@@ -1,5 +1,5 @@
 /* inertial: the quadratic form of A_s in the velocities, by kinds of coordinates. */
-#include "geometry/inertial.h"
+#include "geometry/submanifold.h"
 
 #include "exact/normal.h"
 #include "graph/dag.h"

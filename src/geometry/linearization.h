@@ -22,7 +22,7 @@
 #ifndef NH_LINEARIZATION_H
 #define NH_LINEARIZATION_H
 
-#include "exact/ball_spectrum.h"
+#include "exact/ball_matrix.h"
 #include "geometry/model.h"
 
 enum { NH_LINEAR_DIGITS = 40 };

@@ -43,6 +43,8 @@ nh_ex nh_product(nh_dag *dag, size_t n, const nh_ex *factor);
 
 /* e with from[i] replaced by to[i], all at once. */
 nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t n, const nh_ex *from, const nh_ex *to);
+/* e with by(context, call) for each function call in it, all at once; a call for which that is 0 stays. */
+nh_ex nh_substitute_calls(nh_dag *dag, nh_ex e, nh_ex (*by)(void *context, nh_ex call), void *context);
 
 /* e with every half power of `base` written in `root`: base^(p/2) becomes root^p.  For base = root^2, and root of one
    sign. */

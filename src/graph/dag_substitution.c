@@ -82,6 +82,20 @@ nh_ex nh_substitute(nh_dag *dag, nh_ex e, size_t count, const nh_ex *from, const
     return result;
 }
 
+nh_ex nh_substitute_calls(nh_dag *dag, nh_ex e, nh_ex (*by)(void *context, nh_ex call), void *context)
+{
+    NH_LIST(call);
+    size_t n = nh_functions_in(dag, e, &call), count = 0;
+    nh_ex *value = nh_alloc_array(n + 1, sizeof *value);
+    for (size_t i = 0; i < n; i++) {
+        value[count] = by(context, call[i]);
+        if (value[count] && value[count] != call[i]) call[count++] = call[i];
+    }
+    if (count) e = nh_substitute(dag, e, count, call, value);
+    nh_free(value);
+    return e;
+}
+
 static nh_ex substitute_root(nh_dag *dag, nh_ex e, nh_ex base, nh_ex root, int64_t most_order)
 {
     uint32_t *node;

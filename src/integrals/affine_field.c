@@ -10,9 +10,7 @@
 #include "graph/function.h"
 #include "graph/node.h"
 #include "graph/num.h"
-#include "integrals/centre_of_mass.h"
 #include "integrals/exact_points.h"
-#include "integrals/places.h"
 #include "integrals/recognise.h"
 #include "integrals/shown_coordinates.h"
 
@@ -250,7 +248,7 @@ static size_t written(const nh_model *model, nh_ex out[most_written])
 {
     nh_dag *d = model->dag;
     NH_LIST(call);
-    size_t places = nh_places_of(model, out), n = places, waves = 0,
+    size_t places = nh_shown_places(model, out), n = places, waves = 0,
            calls = nh_functions_in(d, model->system->lagrangian, &call);
     for (size_t i = 0; i < calls && waves + 2 <= most_waves; i++) {
         nh_function f = nh_function_of(d, call[i]);

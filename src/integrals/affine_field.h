@@ -25,4 +25,19 @@ size_t nh_affine_field_words(const nh_model *model, size_t a, size_t b, nh_ex ou
  * the equation above and that of Noether remain to be checked.  False: there is none. */
 bool nh_affine_field(const nh_model *model, nh_ex phi, const nh_options *options, nh_ex *zeta);
 
+/* Where all masses are along a coordinate, without bodies being named.
+ *
+ *     p_s = K_sr v^r = dF/dt,   F = K_ss q^s + ..,   K_ss a constant
+ *
+ * With the coordinate s as a displacement of the whole, K_ss is the whole's mass and F/K_ss its centre's coordinate. */
+
+typedef struct {
+    size_t s;      /* the coordinate */
+    nh_ex mass, F; /* K_ss */
+} nh_centre_of_mass;
+
+/* Those with an F that is no linear function of the coordinates; `out` has room for m.  None where the velocities are
+ * constrained or replaced.  `max_terms`: of polynomials. */
+size_t nh_centre_of_mass_find(const nh_model *model, size_t max_terms, nh_centre_of_mass *out);
+
 #endif

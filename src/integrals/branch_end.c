@@ -1,4 +1,4 @@
-#include "integrals/branch_end.h"
+#include "integrals/crossings.h"
 
 #include <math.h>
 

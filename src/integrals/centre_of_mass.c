@@ -1,4 +1,4 @@
-#include "integrals/centre_of_mass.h"
+#include "integrals/affine_field.h"
 
 #include "base/memory.h"
 #include "exact/normal.h"

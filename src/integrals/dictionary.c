@@ -9,7 +9,7 @@
 #include "graph/function.h"
 #include "graph/node.h"
 #include "graph/num.h"
-#include "integrals/places.h"
+#include "integrals/shown_coordinates.h"
 #include "integrals/total_derivative.h"
 
 enum { least_entries = 24, entries_each = 3, seen_each = 512, least_seen = 4096, longest = 60 };
@@ -478,7 +478,7 @@ nh_dictionary nh_dictionary_of(nh_model *model)
     for (size_t s = 0; s < model->m; s++)
         add_momentum(&h, nh_diff(model->dag, h.lagrangian, model->system->coordinate[s].v));
     nh_ex place[NH_MOST_PLACES];
-    size_t places = nh_places_of(model, place);
+    size_t places = nh_shown_places(model, place);
     for (size_t i = 0; i < places; i++) add(&h, &out.places, out.place, place[i]);
     potentials(&h);
     frame(&h);

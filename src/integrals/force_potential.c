@@ -6,20 +6,19 @@
 
 #include "exact/antiderivative.h"
 #include "exact/normal.h"
+#include "exact/walls.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
-#include "graph/function.h"
 #include "graph/node.h"
 
-enum { largest_form = 2000, most_signs = 8 };
+enum { largest_form = 2000 };
 
 typedef struct {
     const nh_model *o;
     const nh_points *points;
-    size_t max_terms, signs;
-    const nh_ex *force;      /* m */
-    nh_ex call[most_signs];  /* sign(u) with velocities in u */
-    nh_ex value[most_signs]; /* symbols: its value on either side */
+    size_t max_terms;
+    const nh_ex *force;  /* m */
+    nh_wall_sides sides; /* of functions of velocities */
 } problem;
 
 static bool has_velocities(const nh_model *model, nh_ex e)
@@ -29,30 +28,22 @@ static bool has_velocities(const nh_model *model, nh_ex e)
     return false;
 }
 
+static nh_ex side_of_velocities(void *problem_, nh_ex u)
+{
+    problem *p = problem_;
+    return has_velocities(p->o, u) ? nh_walls_side(&p->sides, u) : 0;
+}
+
 /* |u| = u sign(u); every sign(u) of velocities becomes a symbol. */
 static bool fix_signs(problem *p, nh_ex *e)
 {
     nh_dag *d = p->o->dag;
-    NH_LIST(call);
-    size_t n = nh_functions_in(d, *e, &call);
-    for (size_t i = 0; i < n && n <= most_signs; i++) {
-        nh_function f = nh_function_of(d, call[i]);
-        if ((f != NH_SIGN && f != NH_ABS) || !has_velocities(p->o, call[i])) continue;
-        nh_ex u = nh_child(d, call[i], 0), sign = nh_call(d, NH_SIGN, u);
-        size_t k = 0;
-        while (k < p->signs && p->call[k] != sign) k++;
-        if (k == most_signs) return false;
-        if (k == p->signs) {
-            p->call[k] = sign;
-            p->value[p->signs++] = nh_symbol_fresh(d, "s");
-        }
-        *e = nh_substitute(d, *e, 1, &call[i], &(nh_ex){f == NH_SIGN ? p->value[k] : nh_mul(d, p->value[k], u)});
-    }
+    *e = nh_walls_piece(d, *e, side_of_velocities, p);
     /* 1/s = s */
-    for (size_t k = 0; k < p->signs; k++)
-        *e = nh_substitute(d, *e, 1, &(nh_ex){nh_powi(d, p->value[k], -1)}, &p->value[k]);
+    for (size_t k = 0; k < p->sides.count; k++)
+        *e = nh_substitute(d, *e, 1, &(nh_ex){nh_powi(d, p->sides.symbol[k], -1)}, &p->sides.symbol[k]);
     *e = nh_simplify_short(d, *e, largest_form);
-    return n <= most_signs && !has_velocities(p->o, *e) && !nh_depends(d, *e, p->o->system->t);
+    return !p->sides.left_out && !has_velocities(p->o, *e) && !nh_depends(d, *e, p->o->system->t);
 }
 
 static bool is_closed(const problem *p)
@@ -73,7 +64,7 @@ static int sign_at_points(void *context, nh_ex e)
     const problem *p = context;
     if (!p->points) return 0;
     double *value = nh_alloc_array(p->points->count + 1, sizeof *value);
-    e = nh_substitute(p->o->dag, e, p->signs, p->value, p->call);
+    e = nh_walls_signs(&p->sides, e);
     nh_points_evaluate(p->points, p->o, 1, &e, value);
     int sign = 0;
     bool same = true;
@@ -91,10 +82,10 @@ static nh_ex integrate(problem *p, int step)
 {
     const nh_model *o = p->o;
     nh_dag *d = o->dag;
-    size_t parameters = o->system->parameters, n = parameters + p->signs;
+    size_t parameters = o->system->parameters, n = parameters + p->sides.count;
     nh_ex U = nh_int(d, 0), *constant = nh_alloc_array(n + o->m + 2, sizeof *constant);
     memcpy(constant, o->parameter, parameters * sizeof *constant);
-    memcpy(constant + parameters, p->value, p->signs * sizeof *constant);
+    memcpy(constant + parameters, p->sides.symbol, p->sides.count * sizeof *constant);
     bool found = true;
     for (size_t k = 0; k < o->m && found; k++) {
         size_t i = step > 0 ? k : o->m - 1 - k, constants = n;
@@ -115,7 +106,7 @@ static nh_ex integrate(problem *p, int step)
         if (found) U = nh_add(d, U, F);
     }
     nh_free(constant);
-    return found ? nh_substitute(d, U, p->signs, p->value, p->call) : 0;
+    return found ? nh_walls_signs(&p->sides, U) : 0;
 }
 
 static nh_ex potential(problem *p)
@@ -128,7 +119,7 @@ static nh_ex potential(problem *p)
 nh_ex nh_force_potential(const nh_model *model, const nh_points *points, size_t max_terms)
 {
     if (!model->system->has_forces) return 0;
-    problem p = {.o = model, .points = points, .max_terms = max_terms};
+    problem p = {.o = model, .points = points, .max_terms = max_terms, .sides.dag = model->dag};
     nh_ex *force = nh_alloc_array(model->m + 1, sizeof *force);
     p.force = force;
     bool some = false, position = true;
@@ -144,5 +135,6 @@ nh_ex nh_force_potential(const nh_model *model, const nh_points *points, size_t 
 
 nh_ex nh_force_potential_of(const nh_model *model, const nh_points *points, size_t max_terms, const nh_ex *form)
 {
-    return potential(&(problem){.o = model, .points = points, .max_terms = max_terms, .force = form});
+    problem p = {.o = model, .points = points, .max_terms = max_terms, .force = form, .sides.dag = model->dag};
+    return potential(&p);
 }

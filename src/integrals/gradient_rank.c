@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "exact/ball_rank.h"
+#include "exact/ball_matrix.h"
 #include "graph/diff.h"
 #include "exact/normal.h"
 #include "integrals/exact_points.h"

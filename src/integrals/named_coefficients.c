@@ -10,8 +10,6 @@
 #include "graph/diff.h"
 #include "graph/node.h"
 #include "graph/print.h"
-#include "integrals/named_match.h"
-#include "integrals/named_system.h"
 
 enum { most_forms = 5, longest_form = 60, longest_shown = 250, three = NH_NAMED_ORDER };
 enum { longest_of_two = 1200, longest_of_many = 300 }; /* complexities of coefficients, of two words and of many */

@@ -1,4 +1,4 @@
-#include "integrals/named_match.h"
+#include "integrals/named_coefficients.h"
 
 #include <math.h>
 

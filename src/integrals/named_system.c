@@ -1,4 +1,4 @@
-#include "integrals/named_system.h"
+#include "integrals/named_coefficients.h"
 
 #include "exact/normal.h"
 #include "graph/dag.h"

@@ -1,4 +1,4 @@
-#include "integrals/named_variable.h"
+#include "integrals/named_coefficients.h"
 
 #include <string.h>
 

@@ -2,9 +2,15 @@
 
 #include <math.h>
 
+#include "exact/square.h"
+#include "geometry/model.h"
 #include "graph/declared.h"
 #include "graph/diff.h"
+#include "graph/function.h"
+#include "graph/measure.h"
 #include "graph/monomials.h"
+#include "graph/named_function.h"
+#include "graph/node.h"
 #include "graph/terms.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
@@ -12,8 +18,122 @@
 #include "integrals/exact_points.h"
 #include "integrals/fixed.h"
 #include "integrals/noether_equation.h"
-#include "integrals/rate_form.h"
 #include "integrals/symmetry.h"
+
+/* ---- Rates with signs or elliptic integrals in a form in which the normal form sees that they vanish ----
+ *
+ * It treats |u| and every root as a function of its own, of which it knows the square only: sqrt(u^2 v) is then not
+ * |u| sqrt(v), and (N/D)^(1/4) has nothing to do with sqrt(N). */
+
+/* sign(u) as |u|/u, of which the normal form knows the square. */
+static nh_ex without_sign(void *dag, nh_ex call)
+{
+    if (nh_function_of(dag, call) != NH_SIGN) return 0;
+    nh_ex u = nh_child(dag, call, 0);
+    return nh_div(dag, nh_call(dag, NH_ABS, u), u);
+}
+
+/* sin and cos of 2 a, and of 2 a + pi, by those of a, where one of these stands in e: equal radicands then have one
+ * form. */
+static nh_ex in_half_angles(nh_dag *d, nh_ex e)
+{
+    enum { most = 32 };
+    NH_LIST(call);
+    nh_ex by[most], whole[most], one = nh_int(d, 1), two = nh_int(d, 2);
+    size_t n = nh_functions_in(d, e, &call), doubled = 0;
+    for (size_t i = 0; i < n && n <= most; i++)
+        for (size_t k = 0; k < n; k++) {
+            nh_function f = nh_function_of(d, call[i]), g = nh_function_of(d, call[k]);
+            bool waves = (f == NH_SIN || f == NH_COS) && (g == NH_SIN || g == NH_COS);
+            if (!waves) continue;
+            nh_ex half = nh_child(d, call[k], 0), apart = nh_sub(d, nh_child(d, call[i], 0), nh_mul(d, two, half));
+            if (!nh_is_zero(d, apart) && apart != nh_pi(d)) continue;
+            nh_ex sign = nh_int(d, nh_is_zero(d, apart) ? 1 : -1), sine = nh_call(d, NH_SIN, half);
+            nh_ex value = f == NH_COS ? nh_sub(d, one, nh_mul(d, two, nh_powi(d, sine, 2)))
+                                      : nh_product(d, 3, (nh_ex[]){two, sine, nh_call(d, NH_COS, half)});
+            whole[doubled] = call[i];
+            by[doubled++] = nh_mul(d, sign, value);
+            break;
+        }
+    return nh_substitute(d, e, doubled, whole, by);
+}
+
+/* sqrt(e) in another form: where e is c u^2 with a constant c, and u has one sign on the domain, without the square
+ * below the root; of a constant over e' as one over a root.  0: there is none.  `decisive`: the parameters on which
+ * that sign depends. */
+static nh_ex root_of(const nh_model *model, nh_ex e, bool *decisive)
+{
+    nh_dag *d = model->dag;
+    nh_ex outside, inside;
+    bool square = nh_square_split(d, e, &outside, &inside) && nh_model_is_constant(model, inside);
+    int sign = square && !nh_model_is_constant(model, outside) ? nh_model_sign(model, outside) : 0;
+    for (size_t i = 0; i < model->system->parameters && sign; i++)
+        decisive[i] |= nh_depends(d, outside, model->parameter[i]);
+    if (sign) return nh_product(d, 3, (nh_ex[]){nh_int(d, sign), outside, nh_sqrt(d, inside)});
+    bool below = nh_model_is_constant(model, nh_numerator(d, e));
+    return below ? nh_powi(d, nh_sqrt(d, nh_simplify_short(d, nh_powi(d, e, -1), 0)), -1) : 0;
+}
+
+/* sqrt(u^2 v) as |u| sqrt(v), where |u| stands in e, and without squares: nothing else says that they belong
+ * together.  The outer roots first: they are known as they stand. */
+static nh_ex squares_out(const nh_model *model, nh_ex e, bool *decisive)
+{
+    enum { most = 32 };
+    nh_dag *d = model->dag;
+    NH_LIST(base);
+    NH_LIST(call);
+    nh_ex one = nh_int(d, 1);
+    size_t calls = nh_functions_in(d, e, &call), n = nh_radicands_in(d, e, &base);
+    for (size_t k = n; k-- > 0 && n <= most;) {
+        nh_ex rest = nh_simplify_short(d, base[k], 0), outside = one;
+        if (nh_model_is_constant(model, rest)) continue;
+        for (size_t i = 0; i < calls && calls <= most; i++) {
+            if (nh_function_of(d, call[i]) != NH_ABS) continue;
+            nh_ex other = nh_simplify_short(d, nh_div(d, rest, nh_powi(d, nh_child(d, call[i], 0), 2)), 0);
+            if (nh_complexity(d, other) >= nh_complexity(d, rest)) continue;
+            outside = nh_mul(d, outside, call[i]);
+            rest = other;
+        }
+        nh_ex root = root_of(model, rest, decisive);
+        if (!root && outside == one) continue;
+        e = nh_substitute_root(d, e, base[k], nh_mul(d, outside, root ? root : nh_sqrt(d, rest)));
+    }
+    return e;
+}
+
+/* The powers k/4 and k/2 of N/D with those of N and D, where both are positive: sums of quotients have one form. */
+static nh_ex fourth_roots(const nh_model *model, nh_ex e)
+{
+    enum { most = 64 };
+    nh_dag *d = model->dag;
+    NH_LIST(product);
+    size_t n = nh_products_in(d, e, &product);
+    for (size_t i = 0; i < n && n <= most; i++)
+        for (size_t k = 0; k < nh_arity(d, product[i]); k++) {
+            nh_ex base = nh_child(d, product[i], k), x = nh_exponent_of(d, product[i], k);
+            if (nh_kind_of(d, x) != NH_NUMBER || nh_number_of(d, x).q != 4) continue;
+            nh_ex above = nh_numerator(d, base), below = nh_simplify_short(d, nh_div(d, above, base), 0), outside,
+                  inside;
+            if (nh_is_number(d, below, 1) || nh_model_sign(model, above) <= 0) continue;
+            if (!nh_square_split(d, below, &outside, &inside) || nh_model_sign(model, inside) <= 0) continue;
+            nh_ex size = nh_model_sign(model, outside) < 0 ? nh_neg(d, outside) : outside;
+            nh_ex root = nh_div(d, nh_sqrt(d, above), nh_mul(d, size, nh_sqrt(d, inside)));
+            if (nh_model_sign(model, root) > 0) e = nh_substitute_positive_root(d, e, base, root);
+        }
+    return e;
+}
+
+/* A form that is equal on the domain of the model.  decisive[i], one for each parameter, is set where that follows from
+ * the signs that functions of this parameter have at the probes, with the value that it has. */
+static nh_ex rate_form(const nh_model *model, nh_ex e, bool *decisive)
+{
+    nh_dag *d = model->dag;
+    nh_ex positive = nh_substitute_calls(d, e, without_sign, d);
+    if (positive == e && !nh_named_function_has_elliptic(d, e)) return e;
+    return squares_out(model, fourth_roots(model, in_half_angles(d, positive)), decisive);
+}
+
+/* ---- prove ---- */
 
 /* patience: so many times longer may the proof of a certified current be */
 enum { wanted_points = 4, most_tries = 40, double_digits = 8, patience = 5 };
@@ -137,7 +257,7 @@ static nh_proof prove_zero(const nh_model *model, size_t n, const nh_ex *term, n
     nh_ex sum = nh_int(d, 0), *valued = nh_alloc_array(n + 1, sizeof *valued);
     for (size_t i = 0; i < n; i++) sum = nh_add(d, sum, term[i]);
     bool *decisive = nh_alloc_array(model->system->parameters + 1, sizeof *decisive);
-    sum = nh_rate_form(model, sum, decisive);
+    sum = rate_form(model, sum, decisive);
     size_t limit = (size_t)options->proof_terms;
     bool longer = !proof.proved && try_forms(model, sum, claim, limit, &proof);
     bool exact = true;

@@ -1,8 +1,11 @@
 #include "integrals/region.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/text.h"
+#include "exact/normal.h"
+#include "exact/square.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/function.h"
@@ -14,6 +17,106 @@
 #include "integrals/prove.h"
 
 enum { seed_offset = 505 };
+
+/* ---- the list of sides ---- */
+
+static void put(nh_region *r, nh_ex wall, nh_region_kind kind)
+{
+    for (size_t i = 0; i < r->count; i++)
+        if (r->wall[i] == wall) return;
+    r->unseen |= r->count == NH_MOST_WALLS;
+    if (r->count == NH_MOST_WALLS) return;
+    r->wall[r->count] = wall;
+    r->kind[r->count++] = kind;
+}
+
+static void put_side(nh_region *r, nh_ex wall, int sign) { put(r, wall, sign > 0 ? NH_REGION_ABOVE : NH_REGION_BELOW); }
+
+/* The sides on which products of paired roots have their signs (geometry/model.h). */
+static void put_pairs(nh_region *r, const nh_model *model)
+{
+    for (size_t k = 0; k < model->pairs; k++) put_side(r, model->pair[k].product, model->pair[k].sign);
+}
+
+/* 1 where it holds above the wall only, -1: below it only, 0: neither, or there is no such wall. */
+static int side_of(const nh_region *r, nh_ex wall)
+{
+    for (size_t i = 0; i < r->count; i++)
+        if (r->wall[i] == wall) return (r->kind[i] == NH_REGION_ABOVE) - (r->kind[i] == NH_REGION_BELOW);
+    return 0;
+}
+
+/* ---- pieces ---- */
+
+typedef struct {
+    const nh_model *o;
+    const nh_region *region; /* the side of a wall on which it lies */
+    nh_region *chosen;       /* the side on which the first probe of the chart lies, and where it is noted (or NULL) */
+} sides;
+
+static nh_ex number_or_none(const sides *s, int sign) { return sign ? nh_int(s->o->dag, sign) : 0; }
+
+static nh_ex sign_in_region(void *sides_, nh_ex u)
+{
+    const sides *s = sides_;
+    int sign = side_of(s->region, u);
+    return number_or_none(s, sign ? sign : -side_of(s->region, nh_neg(s->o->dag, u)));
+}
+
+static nh_ex sign_at_probe(void *sides_, nh_ex u)
+{
+    const sides *s = sides_;
+    int sign = nh_model_sign_at_probe(s->o, u);
+    if (sign && s->chosen) put_side(s->chosen, u, sign);
+    return number_or_none(s, sign);
+}
+
+nh_ex nh_region_piece(const nh_model *model, const nh_region *region, nh_ex e)
+{
+    return nh_walls_piece(model->dag, e, sign_in_region, &(sides){.o = model, .region = region});
+}
+
+nh_ex nh_region_piece_at_probe(const nh_model *model, nh_ex e, nh_region *chosen)
+{
+    return nh_walls_piece(model->dag, e, sign_at_probe, &(sides){.o = model, .chosen = chosen});
+}
+
+nh_ex nh_region_roots_at_probe(const nh_model *model, nh_ex e, nh_region *chosen)
+{
+    nh_dag *d = model->dag;
+    NH_LIST(base);
+    nh_ex outside, inside, before = e;
+    sides s = {.o = model, .chosen = chosen};
+    e = nh_model_paired_roots(model, e);
+    if (e != before && chosen) put_pairs(chosen, model);
+    size_t n = model->chart->probes ? nh_radicands_in(d, e, &base) : 0;
+    for (size_t i = 0; i < n; i++) {
+        bool square = nh_square_split(d, nh_simplify_short(d, base[i], 0), &outside, &inside);
+        nh_ex sign = square && nh_kind_of(d, outside) != NH_NUMBER ? sign_at_probe(&s, outside) : 0;
+        if (sign) e = nh_substitute_root(d, e, base[i], nh_product(d, 3, (nh_ex[]){sign, outside, nh_sqrt(d, inside)}));
+    }
+    return e;
+}
+
+int nh_region_sign_at_probe(const nh_model *model, nh_ex u, nh_region *chosen)
+{
+    int sign = nh_model_sign_at_probe(model, u);
+    nh_ex wall = nh_model_without_constants(model, u);
+    if (sign && chosen && !nh_model_sign_everywhere(model, u))
+        put_side(chosen, wall, nh_model_sign_at_probe(model, wall));
+    return sign;
+}
+
+bool nh_region_has_probe(const nh_model *model, const nh_region *region)
+{
+    bool has = model->chart->probes > 0;
+    for (size_t i = 0; i < region->count && has; i++) {
+        int wanted = side_of(region, region->wall[i]);
+        has =
+            region->kind[i] != NH_REGION_PARTS && (!wanted || nh_model_sign_at_probe(model, region->wall[i]) == wanted);
+    }
+    return has;
+}
 
 /* ---- impulses ---- */
 
@@ -33,9 +136,9 @@ static bool value_of(nh_ball *ball, nh_ex e, double *value)
 /* L, p and rho at one point, and of the wall g: dg/dt along the motion and dg/dq. */
 typedef struct {
     double L, p[most_directions], rho[most_directions], rate, slope[most_directions];
-} sides;
+} motion_at;
 
-static bool side_at(const nh_model *model, nh_ball *ball, nh_ex g, double *z, sides *s)
+static bool side_at(const nh_model *model, nh_ball *ball, nh_ex g, double *z, motion_at *s)
 {
     if (!nh_exact_at(model, ball, z) || !value_of(ball, model->Lbar, &s->L) ||
         !value_of(ball, nh_diff(model->dag, g, model->chart->symbol[0]), &s->rate))
@@ -52,7 +155,7 @@ static bool side_at(const nh_model *model, nh_ball *ball, nh_ex g, double *z, si
 /* The values at one distance from the wall. */
 static bool passage_at(const nh_model *model, nh_ball *ball, const nh_crossing *c, size_t depth, passage *out)
 {
-    sides below, above;
+    motion_at below, above;
     *out = (passage){0};
     if (!side_at(model, ball, c->wall, c->point[0][depth], &below) ||
         !side_at(model, ball, c->wall, c->point[1][depth], &above))
@@ -203,17 +306,13 @@ static void look(judge *j, const nh_crossing *c, seen *s)
     s->jump |= below != 0 && above != 0 && (below == 1 || above == 1) && jumps(j, c);
 }
 
+/* A wall of an impulse stays one. */
 static void note(nh_region *r, nh_ex wall, const seen *s, bool touches)
 {
-    if ((!s->below && !s->above && !s->jump) || r->count == NH_MOST_WALLS) return;
-    for (size_t i = 0; i < r->count; i++)
-        if (r->wall[i] == wall) return; /* of an impulse */
-    r->wall[r->count] = wall;
-    r->kind[r->count++] = s->below && s->above   ? NH_REGION_PARTS
-                          : s->below || s->above ? (touches    ? NH_REGION_PARTS
-                                                    : s->below ? NH_REGION_ABOVE
-                                                               : NH_REGION_BELOW)
-                                                 : NH_REGION_APART;
+    bool one = s->below != s->above && !touches;
+    if (one) put_side(r, wall, s->below ? 1 : -1);
+    else if (s->below || s->above) put(r, wall, NH_REGION_PARTS);
+    else if (s->jump) put(r, wall, NH_REGION_APART);
 }
 
 /* Joins the crossings of one wall, which may lie apart in the list. */
@@ -242,19 +341,15 @@ static void look_at_the_end(judge *j, const nh_branch_end *end, nh_region *out)
     j->beyond = 0;
 }
 
+static nh_ex inside_of_absolute(void *dag, nh_ex call)
+{
+    return nh_function_of(dag, call) == NH_ABS ? nh_child(dag, call, 0) : 0;
+}
+
 /* Is it continuous for any real values: entire, where each |u| in it is u? */
 static bool is_continuous(const nh_model *model, nh_ex e)
 {
-    NH_LIST(call);
-    for (bool again = true; again;) {
-        again = false;
-        for (size_t i = nh_functions_in(model->dag, e, &call); i-- > 0 && !again;) {
-            if (nh_function_of(model->dag, call[i]) != NH_ABS) continue;
-            nh_ex u = nh_child(model->dag, call[i], 0);
-            e = nh_substitute(model->dag, e, 1, &call[i], &u);
-            again = true;
-        }
-    }
+    for (nh_ex next; (next = nh_substitute_calls(model->dag, e, inside_of_absolute, model->dag)) != e;) e = next;
     return nh_is_entire(model->dag, e, model->width, model->chart->symbol);
 }
 
@@ -266,7 +361,7 @@ static bool passes_all_walls(const nh_model *model, nh_ex phi)
     return all;
 }
 
-nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits,
+nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits, bool sided,
                        const nh_options *options, nh_arena *arena)
 {
     nh_region out = {0};
@@ -281,27 +376,16 @@ nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex p
     j.term = nh_alloc_array(j.terms, sizeof *j.term);
     nh_rate_terms(model, phi, j.term);
     nh_exact_parameters(model, j.ball);
-    for (size_t i = 0; i < terrain->impulses; i++)
-        out.wall[out.count] = terrain->impulse[i], out.kind[out.count++] = NH_REGION_IMPULSE;
+    for (size_t i = 0; i < terrain->impulses; i++) put(&out, terrain->impulse[i], NH_REGION_IMPULSE);
     look_at_all(&j, &terrain->crossings, &out);
     look_at_all(&j, &own, &out);
     /* Far from the sampling box it fails on both sides of a wall, and no other wall ends it: another sheet of this wall
      * does. */
-    for (size_t i = 0; i < j.failing && !out.count; i++)
-        out.wall[out.count] = j.fails[i], out.kind[out.count++] = NH_REGION_PARTS;
+    if (j.failing && !out.count) put(&out, j.fails[0], NH_REGION_PARTS);
     look_at_the_end(&j, &terrain->end, &out);
     nh_free(j.term);
     nh_ball_free(j.ball);
-    return out;
-}
-
-nh_region nh_region_of_pairs(const nh_model *model)
-{
-    nh_region out = {0};
-    for (; out.count < model->pairs && out.count < NH_MOST_WALLS; out.count++) {
-        out.wall[out.count] = model->pair[out.count].product;
-        out.kind[out.count] = model->pair[out.count].sign > 0 ? NH_REGION_ABOVE : NH_REGION_BELOW;
-    }
+    if (sided && out.count) put_pairs(memset(&out, 0, sizeof out), model);
     return out;
 }
 
@@ -316,7 +400,7 @@ nh_region nh_region_open(const nh_model *model, const nh_terrain *terrain, nh_ex
         bool judged = walls.edge[i];
         for (size_t k = 0; k < own.count; k++) judged |= own.item[k].wall == walls.e[i];
         for (size_t k = 0; k < terrain->crossings.count; k++) judged |= terrain->crossings.item[k].wall == walls.e[i];
-        if (!judged) out.wall[out.count] = walls.e[i], out.kind[out.count++] = NH_REGION_PARTS;
+        if (!judged) put(&out, walls.e[i], NH_REGION_PARTS);
     }
     return out;
 }

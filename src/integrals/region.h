@@ -17,7 +17,6 @@
 #ifndef NH_REGION_H
 #define NH_REGION_H
 
-#include "integrals/branch_end.h"
 #include "integrals/crossings.h"
 
 typedef enum { NH_REGION_ABOVE, NH_REGION_BELOW, NH_REGION_APART, NH_REGION_PARTS, NH_REGION_IMPULSE } nh_region_kind;
@@ -43,14 +42,11 @@ typedef struct {
 } nh_terrain;
 nh_terrain nh_terrain_of(const nh_model *model, const nh_options *options, nh_arena *arena);
 
-/* `digits`: to which Gamma(Phi) has to cancel where Phi holds; 0: it is known to vanish on all sides.  No walls in
- * the result: Phi holds everywhere. */
-nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits,
+/* `digits`: to which Gamma(Phi) has to cancel where Phi holds; 0: it is known to vanish on all sides.  `sided`: it is
+ * proved for the sides on which products of paired roots have their signs (nh_proof.sided), and holds there, if it does
+ * not everywhere.  No walls in the result: Phi holds everywhere. */
+nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex phi, double digits, bool sided,
                        const nh_options *options, nh_arena *arena);
-
-/* The sides on which products of paired roots have their signs (geometry/model.h): a proof for these (nh_proof.sided)
- * holds there, if it does not everywhere. */
-nh_region nh_region_of_pairs(const nh_model *model);
 
 /* The walls of phi, without ends of roots, at which nothing could be decided: no motion of this chart was seen to cross
  * them, perhaps because the chart's velocities end there. phi is one function on each side. */
@@ -63,5 +59,25 @@ bool nh_region_to_the_end(const nh_region *region);
 /* "for x > 0", "on each side of x - y = 0, where it jumps", "on each side of x = 0, where the motion has an impulse";
    "on one side of each further wall" (unseen); NULL for everywhere. */
 const char *nh_region_text(nh_dag *dag, const nh_region *region, nh_arena *arena);
+
+/* ---- pieces: on one side of each wall an expression is one smooth function ---- */
+
+/* e with |u| and sign(u) as on the sides of their walls u = 0 on which the region lies (exact/walls.h). */
+nh_ex nh_region_piece(const nh_model *model, const nh_region *region, nh_ex e);
+
+/* The same on the sides on which the first probe of the chart lies.  The walls are added to `chosen` with these sides,
+ * unless it is NULL; where u vanishes at the probe nothing changes. */
+nh_ex nh_region_piece_at_probe(const nh_model *model, nh_ex e, nh_region *chosen);
+
+/* Likewise sqrt(u^2 v) as u sqrt(v) or -u sqrt(v): modulo a prime the root of a square has two values, both among those
+ * of the other functions; and the second of paired roots (geometry/model.h). */
+nh_ex nh_region_roots_at_probe(const nh_model *model, nh_ex e, nh_region *chosen);
+
+/* The sign of u at the probe by rigorous arithmetic, 0 where it is not known; the wall is added unless u is seen to
+ * have this sign everywhere. */
+int nh_region_sign_at_probe(const nh_model *model, nh_ex u, nh_region *chosen);
+
+/* Does what holds in the region hold on the sides of the probe?  Not where it holds in some parts only. */
+bool nh_region_has_probe(const nh_model *model, const nh_region *region);
 
 #endif

@@ -1,4 +1,4 @@
-#include "integrals/sectors.h"
+#include "integrals/reflection.h"
 
 #include <float.h>
 #include <math.h>

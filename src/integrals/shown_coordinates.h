@@ -19,4 +19,14 @@ bool nh_shown_coordinates(const nh_model *model, size_t places, const nh_ex *pla
  * where it is no number; at most so many.  Returns their number. */
 size_t nh_shown_components(const nh_model *model, size_t places, const nh_ex *place, size_t most, nh_ex *out);
 
+/* Sums of positions and t that a system shows, as X = x - a cos(t) or Y = y + c z^2.
+ *
+ * In coordinates that hide a symmetry its field has them as components: X d/dy - Y d/dx. */
+
+enum { NH_MOST_PLACES = 6 };
+
+/* Sums in the Lagrangian and the constraints that have no velocities and are not linear in t and the positions, shorter
+ * ones first where they are parts of longer ones; returns their number. */
+size_t nh_shown_places(const nh_model *model, nh_ex out[NH_MOST_PLACES]);
+
 #endif

@@ -16,7 +16,6 @@
 #include "document/html.h"
 #include "document/linearized.h"
 #include "document/scan.h"
-#include "document/scan_numbers.h"
 #include "document/unfinished.h"
 #include "document/verification.h"
 #include "evaluate/machine.h"

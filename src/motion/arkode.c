@@ -1,4 +1,4 @@
-#include "motion/arkode.h"
+#include "motion/integrators.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,8 +14,7 @@
 #include "base/effort.h"
 #include "base/linalg.h"
 #include "base/memory.h"
-#include "motion/safeguards.h"
-#include "motion/kinks.h"
+#include "motion/wall_steps.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"
 #include "motion/stepping.h"
@@ -73,7 +72,7 @@ typedef struct {
     const double *times;
     size_t count;
     nh_guards guards;
-    nh_kinks kinks;
+    nh_wall_steps walls;
     double *old; /* the state before the last step, where guards are watched */
     double each; /* units of effort of a right-hand side, with the sums that belong to it */
     long evaluations;
@@ -89,7 +88,7 @@ static int call_rate(sunrealtype t, N_Vector state, N_Vector rate, void *user)
     work->evaluations++;
     nh_effort_add(work->each);
     /* not where differences across a wall form derivatives */
-    if (!work->solver || work->problem->jacobian) nh_kinks_see(&work->kinks, t, NV_DATA_S(state));
+    if (!work->solver || work->problem->jacobian) nh_wall_steps_see(&work->walls, t, NV_DATA_S(state));
     bool good = work->problem->rate(t, NV_DATA_S(state), NV_DATA_S(rate), work->problem->context);
     for (size_t i = 0; i < work->problem->size && good; i++) good = isfinite(NV_DATA_S(rate)[i]);
     return good ? 0 : 1; /* "recoverable": ARKODE tries a smaller step */
@@ -120,7 +119,7 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     pairs_work *work = context;
     double target = work->times[motion->count], before = *time;
     size_t bytes = work->problem->size * sizeof *work->old;
-    double longest = fmin(work->guards.longest, work->kinks.longest);
+    double longest = fmin(work->guards.longest, work->walls.longest);
     if (fabs(target - before) > longest) target = before + copysign(longest, target - before);
     memcpy(work->old, NV_DATA_S(work->state), bytes);
     int flag = set_stop_time(work->arkode, target);
@@ -131,12 +130,12 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
     work->before = before, work->now = *time;
     nh_guard_verdict verdict =
         flag >= 0 ? nh_guards_judge(&work->guards, before, *time, NV_DATA_S(work->state), motion) : NH_GUARD_KEPT;
-    nh_kink_verdict kink =
+    nh_wall_verdict wall =
         flag >= 0 && (verdict == NH_GUARD_KEPT || verdict == NH_GUARD_TURN)
-            ? nh_kinks_judge(&work->kinks, work->problem, before, work->old, *time, NV_DATA_S(work->state), motion)
-            : NH_KINK_NONE;
-    if (kink == NH_KINK_BACK) verdict = NH_GUARD_BACK;
-    if (kink == NH_KINK_CROSSED) flag = reset(work->arkode, *time, work->state);
+            ? nh_wall_steps_judge(&work->walls, work->problem, before, work->old, *time, NV_DATA_S(work->state), motion)
+            : NH_WALL_NONE;
+    if (wall == NH_WALL_BACK) verdict = NH_GUARD_BACK;
+    if (wall == NH_WALL_CROSSED) flag = reset(work->arkode, *time, work->state);
     if (verdict != NH_GUARD_KEPT && verdict != NH_GUARD_TURN) {
         memcpy(NV_DATA_S(work->state), work->old, bytes);
         work->now = *time = before;
@@ -144,7 +143,7 @@ static nh_step pairs_advance(double *time, nh_motion *motion, void *context)
         if (flag >= 0) return verdict == NH_GUARD_END ? NH_STEP_LAST : NH_STEP_ON;
     }
     if (flag >= 0) nh_sizes_follow(&work->sizes, *time, NV_DATA_S(work->state));
-    if (kink == NH_KINK_END) return NH_STEP_FAILED;
+    if (wall == NH_WALL_END) return NH_STEP_FAILED;
     bool last = verdict == NH_GUARD_TURN || *time == work->times[work->count - 1];
     if (flag >= 0) return last ? NH_STEP_LAST : NH_STEP_ON;
     nh_motion_note(motion, "the integrator stopped near t = %.10g: %s", motion->end_time, work->sundials.message);
@@ -251,7 +250,7 @@ nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, co
                        .count = count,
                        .old = nh_alloc_array(problem->size + 1, sizeof *work.old)};
     nh_guards_begin(&work.guards, problem, options, initial, count, times);
-    nh_kinks_begin(&work.kinks, problem, initial, count, times);
+    nh_wall_steps_begin(&work.walls, problem, initial, count, times);
     work.rtol = nh_motion_rtol(motion, options);
     bool implicit = method == NH_ESDIRK_5;
     double n = (double)problem->size;
@@ -264,7 +263,8 @@ nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, co
                               .step_effort = step_units[implicit] + (implicit ? flop * n * n * n : 0),
                               .rate = implicit ? NULL : rate_of_problem,
                               .rate_context = &work};
-        nh_kinks_coarser(&work.kinks, (implicit ? part_across_implicit : part_across) * work.rtol * work.sizes.tau);
+        nh_wall_steps_coarser(&work.walls,
+                              (implicit ? part_across_implicit : part_across) * work.rtol * work.sizes.tau);
         nh_motion_run(motion, count, times, options, &stepper);
     } else {
         nh_sundials_fail(&work.sundials, error);
@@ -277,7 +277,7 @@ nh_motion *nh_arkode(nh_arkode_method method, const nh_flow_problem *problem, co
     if (work.state) N_VDestroy(work.state);
     nh_sundials_close(&work.sundials);
     nh_guards_clear(&work.guards);
-    nh_kinks_clear(&work.kinks);
+    nh_wall_steps_clear(&work.walls);
     nh_sizes_clear(&work.sizes);
     nh_free(work.old);
     return motion;

@@ -2,7 +2,7 @@
  *
  * CVODE is driven step by step and the output times are interpolated in each step: so the limit of steps is exact, a
  * cancellation is seen after every step, and the choice of output times does not change the motion. */
-#include "motion/cvode.h"
+#include "motion/integrators.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,7 +15,9 @@
 #include "base/effort.h"
 #include "base/linalg.h"
 #include "base/memory.h"
-#include "motion/kink_crossing.h"
+#include "base/progress.h"
+#include "motion/events.h"
+#include "motion/wall_steps.h"
 #include "motion/sizes.h"
 #include "motion/sundials.h"
 #include "motion/stepping.h"
@@ -42,7 +44,7 @@ typedef struct {
     /* the current state; the state at a time in the last step, from whose end the next one begins */
     N_Vector state, inside;
     nh_sizes sizes;
-    nh_kinks kinks;
+    nh_wall_steps walls;
     /* across a wall: the motion of the last step by a one-step method, behind which the next step starts anew; else
      * NULL */
     nh_motion *across;
@@ -165,10 +167,75 @@ static void count_set_ups(cvode_work *work)
 static bool cvode_state(double time, double *state, void *context)
 {
     cvode_work *work = context;
-    if (work->across) return nh_kink_crossing_state(work->across, time, state);
+    for (size_t i = 0; work->across && i < work->across->count; i++)
+        if (work->across->time[i] == time)
+            return memcpy(state, work->across->state + i * work->across->size, work->across->size * sizeof *state);
+    if (work->across) return false;
     if (CVodeGetDky(work->cvode, time, 0, work->inside) != CV_SUCCESS) return false;
     memcpy(state, NV_DATA_S(work->inside), work->problem->size * sizeof *state);
     return true;
+}
+
+/* ---- across a wall (wall_steps.h): a one-step method leads from before the step to behind the wall ---- */
+
+/* in units of `least`: a one-step method goes at least so far behind a wall, and as far as its way to the wall was */
+static const double few = 64;
+
+/* The beginning of the step, the wanted times in it, and its end. */
+static size_t times_across(const cvode_work *work, double before, double end, double *times)
+{
+    size_t n = 0;
+    bool backward = end < before;
+    times[n++] = before;
+    for (size_t i = 0; i < work->count; i++)
+        if (backward ? work->times[i] < before && work->times[i] > end
+                     : work->times[i] > before && work->times[i] < end)
+            times[n++] = work->times[i];
+    times[n++] = end;
+    return n;
+}
+
+static nh_motion *by_one_step_method(const cvode_work *work, double before, double end)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    size_t size = work->problem->size;
+    double *times = nh_alloc_array(work->count + 2 + size, sizeof *times), *scale = times + work->count + 2;
+    for (size_t i = 0; i < size; i++) scale[i] = nh_sizes_absolute(&work->sizes, work->rtol, i) / work->rtol;
+    nh_flow_options options = {.rtol = work->rtol,
+                               .scale = scale,
+                               .watch = work->options->watch,
+                               .guarded = true,
+                               .whole = work->walls.span,
+                               .cancelled = nh_interrupted_callback};
+    size_t count = times_across(work, before, end, times);
+    /* an implicit method would solve its stages too inexactly to approach a wall */
+    nh_motion *motion = nh_gsl_odeiv(NH_RK8PD, work->problem, work->old, count, times, &options, &ignored);
+    nh_free(times);
+    return motion;
+}
+
+/* The motion from before the last step to behind a wall in it, at the wanted times and at its end.  NULL: there was no
+ * wall in the step. */
+static nh_motion *cross_wall(cvode_work *work, double before, double now, nh_motion *motion)
+{
+    nh_wall_steps *k = &work->walls;
+    if (!k->change.count || now == before) return NULL;
+    double at = nh_wall_steps_first(k, before, now, cvode_state, work);
+    if (isnan(at)) return NULL;
+    double end = at + copysign(fmax(fabs(at - before), few * k->least), now - before);
+    if (fabs(end - before) > fabs(work->stop - before)) end = work->stop;
+    nh_motion *across = by_one_step_method(work, before, end);
+    if (!across) return NULL;
+    if (!across->complete || across->note[0]) nh_motion_note(motion, "%s", across->note);
+    motion->guard_hit = across->guard_hit;
+    motion->limited = across->limited;
+    nh_events_append(motion, across);
+    motion->searched = across->end_time;
+    motion->stopped = across->stopped;
+    memcpy(k->change.z, across->end_state, k->change.size * sizeof *k->change.z);
+    nh_wall_steps_go_over(k, across->end_time, motion);
+    return across;
 }
 
 /* Starts anew behind a wall: the last steps do not describe the motion there. */
@@ -201,15 +268,13 @@ static nh_step cvode_advance(double *time, nh_motion *motion, void *context)
     count_set_ups(work);
     if (flag >= 0) {
         nh_sizes_follow(&work->sizes, *time, NV_DATA_S(work->state));
-        nh_kink_crossing leap = {before,     *time,       work->old,   &work->sizes,
-                                 work->rtol, work->count, work->times, work->options->watch};
-        work->across = nh_kink_crossing_make(&work->kinks, work->problem, &leap, cvode_state, work, motion);
+        work->across = cross_wall(work, before, *time, motion);
     }
     if (work->across) {
         *time = work->across->end_time;
         work->evaluations += work->across->evaluations;
         motion->evaluations = work->evaluations + work->sizes.evaluations;
-        return work->across->complete && !work->kinks.held ? *time == work->stop ? NH_STEP_LAST : NH_STEP_ON
+        return work->across->complete && !work->walls.held ? *time == work->stop ? NH_STEP_LAST : NH_STEP_ON
                : motion->guard_hit >= 0                    ? NH_STEP_LAST
                                                            : NH_STEP_FAILED;
     }
@@ -264,7 +329,7 @@ static void destroy_objects(cvode_work *work)
     nh_free(work->old);
     nh_motion_free(work->across);
     nh_sizes_clear(&work->sizes);
-    nh_kinks_clear(&work->kinks);
+    nh_wall_steps_clear(&work->walls);
 }
 
 nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_t count, const double *times,
@@ -286,7 +351,7 @@ nh_motion *nh_cvode(const nh_flow_problem *problem, const double *initial, size_
     work.old = nh_alloc_array(problem->size, sizeof *work.old);
     good = nh_sizes_open(&work.sizes, problem, options, initial, count, times);
     work.evaluations = work.sizes.evaluations, work.sizes.evaluations = 0;
-    nh_kinks_begin(&work.kinks, problem, initial, count, times);
+    nh_wall_steps_begin(&work.walls, problem, initial, count, times);
     good = good && create_objects(&work, options->method) && set_up(&work, times[0], initial);
     if (!good) {
         nh_sundials_fail(&work.sundials, error);

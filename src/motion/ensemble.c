@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "motion/sizes.h"
-#include "motion/tableau.h"
+#include "motion/integrators.h"
 #include "motion/turns.h"
 #include "system/sample.h"
 

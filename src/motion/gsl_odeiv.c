@@ -1,4 +1,4 @@
-#include "motion/gsl_odeiv.h"
+#include "motion/integrators.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,8 +9,7 @@
 
 #include "base/effort.h"
 #include "base/memory.h"
-#include "motion/safeguards.h"
-#include "motion/kinks.h"
+#include "motion/wall_steps.h"
 #include "motion/sizes.h"
 #include "motion/stepping.h"
 
@@ -28,7 +27,7 @@ typedef struct {
     double h, before, now;      /* next step; times before and after the last one */
     double *state, *old, *work; /* now; before the last step */
     nh_guards guards;
-    nh_kinks kinks;
+    nh_wall_steps walls;
     double apace; /* the step before a wall was approached; 0: none is */
     nh_sizes sizes;
     double rtol, each; /* each: units of effort of a stage, with its sums of n numbers */
@@ -117,7 +116,7 @@ static int call_rate(double t, const double *z, double *rate, void *context)
     explicit_work *work = context;
     work->evaluations++;
     nh_effort_add(work->each);
-    nh_kinks_see(&work->kinks, t, z);
+    nh_wall_steps_see(&work->walls, t, z);
     if (!work->problem->rate(t, z, rate, work->problem->context)) return GSL_FAILURE; /* a smaller step is tried */
     for (size_t i = 0; i < work->problem->size; i++)
         if (!isfinite(rate[i])) return GSL_FAILURE;
@@ -153,15 +152,15 @@ static nh_step go_back(explicit_work *work, nh_guard_verdict verdict, double *ti
  * were before it. */
 static bool back_from_wall(explicit_work *work, nh_motion *motion, double *time)
 {
-    nh_kink_verdict verdict =
-        nh_kinks_judge(&work->kinks, work->problem, work->before, work->old, work->now, work->state, motion);
-    if (verdict == NH_KINK_BACK) {
+    nh_wall_verdict verdict =
+        nh_wall_steps_judge(&work->walls, work->problem, work->before, work->old, work->now, work->state, motion);
+    if (verdict == NH_WALL_BACK) {
         if (work->apace == 0) work->apace = work->now - work->before;
         go_back(work, NH_GUARD_BACK, time);
         return true;
     }
-    if (work->apace != 0 && isinf(work->kinks.longest)) work->h = work->apace, work->apace = 0;
-    if (verdict == NH_KINK_CROSSED) forget(work);
+    if (work->apace != 0 && isinf(work->walls.longest)) work->h = work->apace, work->apace = 0;
+    if (verdict == NH_WALL_CROSSED) forget(work);
     return false;
 }
 
@@ -170,7 +169,7 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
     explicit_work *work = context;
     double target = work->times[work->between ? work->count - 1 : motion->count];
     size_t size = work->problem->size;
-    double longest = fmin(work->guards.longest, work->kinks.longest);
+    double longest = fmin(work->guards.longest, work->walls.longest);
     if (fabs(work->h) > longest) work->h = copysign(longest, work->h);
     double wanted = work->h;
     work->before = *time;
@@ -186,7 +185,7 @@ static nh_step explicit_advance(double *time, nh_motion *motion, void *context)
     else if (verdict != NH_GUARD_KEPT) return go_back(work, verdict, time);
     if (*time == target && fabs(work->h) < fabs(wanted)) work->h = wanted; /* the step was cut to end there */
     if (flag == GSL_SUCCESS && back_from_wall(work, motion, time)) return NH_STEP_ON;
-    if (work->kinks.held) return NH_STEP_FAILED;
+    if (work->walls.held) return NH_STEP_FAILED;
     if (flag == GSL_SUCCESS && work->options->after) {
         if (!changed_after(work, *time, work->state)) {
             nh_motion_note(motion, "the state could not be projected near t = %.10g", *time);
@@ -277,12 +276,12 @@ nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *probl
     work.work = work.old + size;
     memcpy(work.state, initial, size * sizeof *initial);
     nh_guards_begin(&work.guards, problem, options, initial, count, times);
-    nh_kinks_begin(&work.kinks, problem, initial, count, times);
-    work.kinks.span = fmax(work.kinks.span, options->whole);
+    nh_wall_steps_begin(&work.walls, problem, initial, count, times);
+    work.walls.span = fmax(work.walls.span, options->whole);
     work.rtol = nh_motion_rtol(motion, options);
     work.each = stage_units[method] + stage_vectors[method] * (double)size;
     bool good = set_up(&work, method);
-    nh_kinks_coarser(&work.kinks, part_across * work.rtol * work.sizes.tau);
+    nh_wall_steps_coarser(&work.walls, part_across * work.rtol * work.sizes.tau);
     if (good) {
         nh_stepper stepper = {.context = &work,
                               .advance = explicit_advance,
@@ -303,7 +302,7 @@ nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *probl
     if (work.between) gsl_odeiv2_step_free(work.between);
     if (work.driver) gsl_odeiv2_driver_free(work.driver);
     nh_guards_clear(&work.guards);
-    nh_kinks_clear(&work.kinks);
+    nh_wall_steps_clear(&work.walls);
     nh_sizes_clear(&work.sizes);
     nh_free(work.state);
     return motion;

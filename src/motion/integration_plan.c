@@ -1,4 +1,4 @@
-#include "motion/integration_plan.h"
+#include "motion/pilot_runs.h"
 
 #include <math.h>
 

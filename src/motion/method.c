@@ -1,4 +1,4 @@
-#include "motion/cvode.h"
+#include "motion/integrators.h"
 #include "motion/method.h"
 #include "motion/turns.h"
 

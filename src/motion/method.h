@@ -2,10 +2,7 @@
 #ifndef NH_METHOD_H
 #define NH_METHOD_H
 
-#include "motion/gsl_odeiv.h"
-#include "motion/midpoint.h"
-#include "motion/arkode.h"
-#include "motion/relaxation.h"
+#include "motion/integrators.h"
 
 typedef enum {
     NH_METHOD_CVODE,

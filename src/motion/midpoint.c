@@ -1,4 +1,4 @@
-#include "motion/midpoint.h"
+#include "motion/integrators.h"
 #include "motion/turns.h"
 
 #include <float.h>

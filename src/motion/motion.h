@@ -47,8 +47,8 @@ typedef struct {
     bool (*renew)(double *z, void *context);
     bool own_guards; /* in parts of such a motion: the other guards end it */
     size_t walls;
-    /* Functions that change their sign where the rates have a kink or a jump: steps end there (kinks.h).  May be NULL
-       when walls is 0. */
+    /* Functions that change their sign where the rates have a kink or a jump: steps end there (wall_steps.h).  May be
+       NULL when walls is 0. */
     bool (*wall)(double t, const double *z, double *value, void *context);
 } nh_flow_problem;
 

@@ -1,4 +1,4 @@
-#include "motion/programs.h"
+#include "motion/integrators.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,11 +1,10 @@
-#include "motion/relaxation.h"
+#include "motion/integrators.h"
 #include "motion/turns.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "motion/tableau.h"
 #include "motion/stepping.h"
 
 enum { most_iterations = 20, most_halvings = 3 };

@@ -5,7 +5,7 @@
  * most, whose sign change the ends show; otherwise the part is halved.  So every pair of zeros is found, unless the
  * function stays within its floor, below which it has no sign: then `doubtful` tells the time.  How much the
  * interpolation is off is estimated by its last coefficients and at two more places.  Kinks of the equations of motion
- * (kinks.h) and events (events.h) are such changes. */
+ * (wall_steps.h) and events (events.h) are such changes. */
 #ifndef NH_SIGN_CHANGES_H
 #define NH_SIGN_CHANGES_H
 

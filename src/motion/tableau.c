@@ -1,7 +1,7 @@
 /* Reads a tableau from one step with h = 1 from z = 0, in which the j-th call of the right-hand side returns the j-th
  * unit vector: the states that the stepper asks for and its result are rows of the tableau. */
 #include "base/clones.h"
-#include "motion/tableau.h"
+#include "motion/integrators.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 #include "motion/automatic.h"
-#include "motion/cvode.h"
+#include "motion/integrators.h"
 #include "motion/singular_start.h"
 #include "motion/singular_terms.h"
 #include "motion/trajectory.h"

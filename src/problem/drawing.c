@@ -8,7 +8,6 @@
 #include "graph/diff.h"
 #include "graph/function.h"
 #include "graph/measure.h"
-#include "problem/solid.h"
 
 typedef struct {
     const nh_system *s;

@@ -2,6 +2,8 @@
 #ifndef NH_DRAWING_H
 #define NH_DRAWING_H
 
+#include "system/bodies.h"
+#include "system/shape.h"
 #include "system/system.h"
 
 /* Shapes in t, coordinates and parameters, in the arena:
@@ -18,5 +20,11 @@
  *
  * Returns how it is seen, in words for a caption, or NULL with no shapes. */
 const char *nh_drawing_choose(nh_arena *arena, const nh_system *system, size_t *count, const nh_shape **shape);
+
+/* A rigid body of a chain as a shape in space. */
+
+/* The wheel or the ball that rolls on it; else the box of even density with its moments of inertia about the axes of
+ * its frame, in which flat bodies are flat; without them a ball of radius 0. */
+nh_shape nh_solid_of_body(nh_dag *dag, const nh_chain *chain, size_t body);
 
 #endif

@@ -7,7 +7,6 @@
  *
  * and since the integrators end their steps at the zeros of what stands in an absolute value, no step goes over a
  * corner. */
-#include "problem/input.h"
 
 #include <string.h>
 

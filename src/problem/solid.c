@@ -1,4 +1,4 @@
-#include "problem/solid.h"
+#include "problem/drawing.h"
 
 #include "graph/dag.h"
 #include "graph/function.h"

@@ -1,4 +1,4 @@
-#include "reduction/base_parameters.h"
+#include "reduction/measure_conditions.h"
 
 #include <string.h>
 

@@ -11,7 +11,7 @@
 #include "integrals/fixed.h"
 #include "integrals/recognise.h"
 #include "reduction/generator_fit.h"
-#include "reduction/joint_fields.h"
+#include "reduction/joint.h"
 #include "reduction/relative.h"
 #include "reduction/section.h"
 

@@ -9,7 +9,6 @@
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/node.h"
-#include "reduction/base_parameters.h"
 
 enum { longest = 3000, most_shape = 6 };
 

@@ -1,5 +1,5 @@
 /* Null vectors against products of currents, by their values. */
-#include "search/agreement.h"
+#include "search/search.h"
 
 #include <math.h>
 #include <string.h>

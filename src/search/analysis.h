@@ -50,7 +50,7 @@ typedef struct {
     bool has_symmetry, local;
     bool on_both;            /* of two branches: as printed, current and field hold on the other one too */
     const char *region;      /* of a piece: where it holds, "for x > 0" */
-    bool counted;            /* of a piece: it holds on the sides on which integrals are counted (count/one_side.h) */
+    bool counted;            /* of a piece: it holds on the sides on which integrals are counted (integrals/region.h) */
     bool to_the_end;         /* of a piece: motions end where its region does, at walls where they have an impulse */
     const nh_series *series; /* NULL for a closed form */
     nh_symmetry symmetry;

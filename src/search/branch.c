@@ -1,4 +1,4 @@
-#include "search/branch.h"
+#include "search/search.h"
 
 #include "exact/normal.h"
 #include "graph/dag.h"

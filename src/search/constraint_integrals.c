@@ -1,4 +1,4 @@
-#include "search/constraint_integrals.h"
+#include "search/searches.h"
 
 #include "exact/normal.h"
 #include "graph/dag.h"

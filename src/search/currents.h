@@ -47,7 +47,7 @@ const char *nh_currents_region(nh_current_checker *bench, nh_ex phi, double digi
 /* The same of this current; one that is not proved everywhere may be proved there. */
 const char *nh_currents_hold(nh_current_checker *bench, nh_current *found);
 /* A proved current that ends or jumps at a zero of u because it contains a root of u^2: with u instead of that root, is
- * it a current everywhere (integrals/continued.h)?  Then it is replaced by that one. */
+ * it a current everywhere?  Then it is replaced by that one. */
 bool nh_currents_continue(nh_current_checker *bench, nh_current *found);
 
 /* The same as nh_currents_add for a series, which cancels to so many digits.  Nothing is added when it depends on

@@ -1,4 +1,4 @@
-#include "search/defaults.h"
+#include "search/search.h"
 
 #include <string.h>
 

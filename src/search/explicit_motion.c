@@ -92,15 +92,9 @@ static bool satisfied(const nh_explicit_curve *c, const bool *known)
     return good;
 }
 
-static nh_ex without_elliptic(nh_dag *d, nh_ex e)
+static nh_ex one_for_elliptic(void *dag, nh_ex call)
 {
-    enum { most = 64 };
-    NH_LIST(call);
-    nh_ex one[most];
-    size_t n = nh_functions_in(d, e, &call), count = 0;
-    for (size_t i = 0; i < n && i < most; i++)
-        if (nh_is_incomplete_elliptic(nh_function_of(d, call[i]))) one[count] = nh_int(d, 1), call[count++] = call[i];
-    return nh_substitute(d, e, count, call, one);
+    return nh_is_incomplete_elliptic(nh_function_of(dag, call)) ? nh_int(dag, 1) : 0;
 }
 
 /* How many quotients in e can be infinite on the curve; in amplitudes they may be. */
@@ -108,7 +102,7 @@ static size_t poles(const nh_explicit_curve *c, nh_ex e)
 {
     NH_LIST(product);
     NH_LIST(tangent);
-    e = without_elliptic(c->d, e);
+    e = nh_substitute_calls(c->d, e, one_for_elliptic, c->d);
     size_t count = 0, n = nh_products_in(c->d, e, &product), f = nh_functions_in(c->d, e, &tangent);
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < nh_arity(c->d, product[i]); k++) {
@@ -132,21 +126,13 @@ static nh_ex without_poles(const nh_explicit_curve *c, nh_ex e)
 }
 
 /* sign(c u) as sign(u) or -sign(u), for a constant c of parameters. */
-static nh_ex with_plain_signs(const nh_explicit_curve *c, nh_ex e)
+static nh_ex plain_sign(void *curve, nh_ex call)
 {
-    enum { most = 24 };
-    nh_dag *d = c->d;
-    NH_LIST(call);
-    nh_ex by[most];
-    size_t n = nh_functions_in(d, e, &call), signs = 0;
-    for (size_t i = 0; i < n && n <= most; i++) {
-        if (nh_function_of(d, call[i]) != NH_SIGN) continue;
-        nh_ex u = nh_child(d, call[i], 0), rest = nh_model_without_constants(c->o, u);
-        if (rest == u) continue;
-        int sign = nh_model_sign(c->o, nh_div(d, u, rest));
-        if (sign) by[signs] = nh_mul(d, nh_int(d, sign), nh_call(d, NH_SIGN, rest)), call[signs++] = call[i];
-    }
-    return nh_substitute(d, e, signs, call, by);
+    const nh_explicit_curve *c = curve;
+    if (nh_function_of(c->d, call) != NH_SIGN) return 0;
+    nh_ex u = nh_child(c->d, call, 0), rest = nh_model_without_constants(c->o, u);
+    int sign = rest == u ? 0 : nh_model_sign(c->o, nh_div(c->d, u, rest));
+    return sign ? nh_mul(c->d, nh_int(c->d, sign), nh_call(c->d, NH_SIGN, rest)) : 0;
 }
 
 /* Drops formulas that still depend on unsolved states.  A constant that is not constant, to all digits, makes the whole
@@ -157,7 +143,7 @@ static void conclude(nh_explicit_curve *c)
     bool *known = nh_arena_alloc(c->arena, m->states * sizeof *known), constant = true;
     for (size_t j = 0; j < m->constants && constant; j++) {
         nh_ex value = nh_combined_coordinates_out(c->combined, c->d, m->constant[j].value);
-        m->constant[j].value = value = with_plain_signs(c, value);
+        m->constant[j].value = value = nh_substitute_calls(c->d, value, plain_sign, c);
         if (m->constant[j].at_start) continue;
         nh_ex rate = nh_model_gamma(c->o, value);
         constant = nh_is_zero(c->d, rate) || nh_prove_digits(c->o, value, c->options) >= c->options->digits ||

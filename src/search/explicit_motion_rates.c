@@ -5,6 +5,7 @@
 #include "exact/antiderivative.h"
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "exact/walls.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/function.h"
@@ -13,35 +14,19 @@
 #include "graph/node.h"
 #include "search/explicit_motion_internal.h"
 
-enum { most_sides = 8 };
-
 /* |u| and sign(u) of functions u of s, which are side u and side wherever u has one sign. */
 typedef struct {
     nh_explicit_curve *curve;
-    size_t calls, sides;
-    nh_ex call[most_sides], by[most_sides];   /* in their place */
-    nh_ex side[most_sides], sign[most_sides]; /* symbols, and what they are */
+    nh_wall_sides sides;
 } pieces;
 
-static void read_pieces(pieces *p, nh_ex f)
+static nh_ex side_on_curve(void *pieces_, nh_ex u)
 {
-    nh_dag *d = p->curve->d;
-    NH_LIST(all);
-    size_t n = nh_functions_in(d, f, &all);
-    for (size_t i = 0; i < n && p->calls < most_sides; i++) {
-        nh_function name = nh_function_of(d, all[i]);
-        if ((name != NH_ABS && name != NH_SIGN) || !nh_depends(d, all[i], p->curve->s)) continue;
-        nh_ex u = nh_child(d, all[i], 0), sign = nh_call(d, NH_SIGN, u);
-        size_t k = 0;
-        while (k < p->sides && p->sign[k] != sign) k++;
-        if (k == p->sides) {
-            p->sign[k] = sign;
-            p->side[p->sides++] = nh_symbol_fresh(d, "side");
-        }
-        p->call[p->calls] = all[i];
-        p->by[p->calls++] = name == NH_ABS ? nh_mul(d, p->side[k], u) : p->side[k];
-    }
+    pieces *p = pieces_;
+    return nh_depends(p->curve->d, u, p->curve->s) ? nh_walls_side(&p->sides, u) : 0;
 }
+
+static nh_ex with_sides(pieces *p, nh_ex e) { return nh_walls_piece(p->curve->d, e, side_on_curve, p); }
 
 /* sqrt(u^2 v) as |u| sqrt(v), with functions u of s: on each side of u = 0 that can be integrated. */
 static nh_ex squares_out(const nh_explicit_curve *c, nh_ex f)
@@ -71,35 +56,35 @@ static bool is_real(const nh_explicit_curve *c, nh_ex F)
     return real;
 }
 
-static nh_ex with_sides(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->calls, p->call, p->by); }
-static nh_ex with_signs(const pieces *p, nh_ex e) { return nh_substitute(p->curve->d, e, p->sides, p->side, p->sign); }
 static int sign_on_sides(void *context, nh_ex e)
 {
     const pieces *p = context;
-    return nh_explicit_sign(p->curve, with_signs(p, e));
+    return nh_explicit_sign(p->curve, nh_walls_signs(&p->sides, e));
 }
 
 static int most_on_sides(void *context, nh_ex e)
 {
     const pieces *p = context;
-    return nh_explicit_mostly(p->curve, with_signs(p, e));
+    return nh_explicit_mostly(p->curve, nh_walls_signs(&p->sides, e));
+}
+
+typedef struct {
+    nh_dag *d;
+    nh_ex f, root, sign;
+} elliptic_sign;
+
+static nh_ex with_sign(void *elliptic_sign_, nh_ex call)
+{
+    const elliptic_sign *x = elliptic_sign_;
+    bool integral = nh_is_incomplete_elliptic(nh_function_of(x->d, call)) && !nh_depends(x->d, x->f, call);
+    return integral && !nh_depends(x->d, call, x->root) ? nh_mul(x->d, x->sign, call) : 0;
 }
 
 /* Elliptic integrals of the root of a radicand, with its sign where it does not stand in them; those in f are there
  * already. */
 static nh_ex with_sign_of_root(nh_dag *d, nh_ex f, nh_ex F, nh_ex root)
 {
-    enum { most = 64 };
-    NH_LIST(call);
-    nh_ex by[most], sign = nh_call(d, NH_SIGN, root);
-    size_t n = nh_functions_in(d, F, &call), elliptic = 0;
-    for (size_t i = 0; i < n && i < most; i++) {
-        bool integral = nh_is_incomplete_elliptic(nh_function_of(d, call[i])) && !nh_depends(d, f, call[i]);
-        if (!integral || nh_depends(d, call[i], root)) continue;
-        by[elliptic] = nh_mul(d, sign, call[i]);
-        call[elliptic++] = call[i];
-    }
-    return nh_substitute(d, F, elliptic, call, by);
+    return nh_substitute_calls(d, F, with_sign, &(elliptic_sign){d, f, root, nh_call(d, NH_SIGN, root)});
 }
 
 /* int f ds, in which roots are written as such; its constant may be another one on either side of a zero of u. */
@@ -116,14 +101,13 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
         f = nh_substitute(d, f, 1, &m->root[i].symbol, &root);
     }
     f = squares_out(c, f);
-    pieces p = {.curve = c};
-    read_pieces(&p, f);
-    nh_ex *constant = nh_alloc_array(c->symbols + most_sides, sizeof *constant);
+    pieces p = {.curve = c, .sides.dag = d};
+    nh_ex piece = with_sides(&p, f), *constant = nh_alloc_array(c->symbols + NH_MOST_SIDES, sizeof *constant);
     memcpy(constant, c->symbol, c->symbols * sizeof *constant);
-    memcpy(constant + c->symbols, p.side, p.sides * sizeof *constant);
+    memcpy(constant + c->symbols, p.sides.symbol, p.sides.count * sizeof *constant);
     nh_integration in = {.dag = d,
                          .x = c->s,
-                         .constants = c->symbols + p.sides,
+                         .constants = c->symbols + p.sides.count,
                          .constant = constant,
                          .max_terms = (size_t)c->options->proof_terms,
                          .elliptic = roots <= 1,
@@ -134,10 +118,10 @@ static bool integrate(nh_explicit_curve *c, nh_ex f, nh_ex *F)
     bool found = false;
     for (int within = 0; within < 2 && !found; within++) {
         in.within_half_turn = within;
-        if (!nh_antiderivative(&in, with_sides(&p, f), F)) break;
+        if (!nh_antiderivative(&in, piece, F)) break;
         for (size_t i = m->roots; i-- > 0;)
             *F = nh_substitute_root(d, *F, with_sides(&p, c->radicand[i]), m->root[i].symbol);
-        *F = with_signs(&p, roots ? with_sign_of_root(d, f, *F, own) : *F);
+        *F = nh_walls_signs(&p.sides, roots ? with_sign_of_root(d, f, *F, own) : *F);
         found = !nh_named_function_has_elliptic(d, *F) || is_real(c, *F);
     }
     nh_free(constant);

@@ -1,4 +1,4 @@
-#include "search/frames.h"
+#include "search/searches.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,7 +14,6 @@
 #include "search/currents.h"
 #include "search/other_system.h"
 #include "search/quadratures.h"
-#include "search/slopes.h"
 
 /* Of m coordinates. */
 typedef struct {

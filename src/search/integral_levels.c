@@ -1,4 +1,4 @@
-#include "search/integral_levels.h"
+#include "search/searches.h"
 
 #include <math.h>
 #include <stdio.h>

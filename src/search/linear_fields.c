@@ -13,7 +13,6 @@
 #include "graph/diff.h"
 #include "graph/node.h"
 #include "integrals/affine_field.h"
-#include "integrals/centre_of_mass.h"
 #include "search/stage_solver.h"
 #include "search/stages_internal.h"
 
@@ -43,7 +42,7 @@ static void centres_of_mass(nh_stage_solver *solver, size_t centres, const centr
     }
 }
 
-/* Those along one coordinate, by geometry (integrals/centre_of_mass.h); returns their number, at most m. */
+/* Those along one coordinate, by geometry (integrals/affine_field.h); returns their number, at most m. */
 static size_t pulled_centres(const nh_model *model, size_t max_terms, centre *out)
 {
     nh_dag *d = model->dag;

@@ -22,7 +22,7 @@
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "graph/terms.h"
-#include "exact/ball_eigenvalues.h"
+#include "exact/ball_matrix.h"
 #include "exact/invariant_forms.h"
 #include "exact/normal.h"
 #include "graph/dag.h"

@@ -6,11 +6,101 @@
 #include "base/budget.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "exact/normal.h"
+#include "exact/relation.h"
+#include "graph/dag.h"
+#include "graph/print.h"
+#include "search/analysis.h"
 #include "search/counted.h"
+#include "search/current_list.h"
 #include "search/currents.h"
 #include "search/missing_internal.h"
-#include "search/relations.h"
-#include "search/current_list.h"
+
+/* ---- Polynomial relations among integrals that are polynomials in the velocities ---- */
+
+typedef struct {
+    nh_analysis *r;
+    size_t count;
+    nh_ex *phi, *symbol;
+} ring;
+
+static void put(ring *x, const nh_current *f)
+{
+    if (!f->proof.proved || f->series) return;
+    x->symbol[x->count] = nh_symbol_fresh(x->r->question->model->dag, f->name);
+    x->phi[x->count++] = f->phi;
+}
+
+static nh_ex product(nh_dag *d, size_t n, const nh_ex *factor, const uint8_t *exponent)
+{
+    nh_ex e = nh_int(d, 1);
+    for (size_t k = 0; k < n; k++) e = nh_mul(d, e, nh_powi(d, factor[k], exponent[k]));
+    return e;
+}
+
+/* The leading product in terms of the others.  False: the coefficients are not found. */
+static bool exact(const ring *x, const nh_count_relation *q, nh_further_relation *out)
+{
+    nh_analysis *result = x->r;
+    nh_dag *d = result->question->model->dag;
+    nh_ex *value = nh_alloc_array(q->terms + 1, sizeof *value), *name = nh_alloc_array(q->terms + 1, sizeof *name),
+          *c = nh_alloc_array(q->terms + 1, sizeof *c);
+    for (size_t i = 0; i < q->terms; i++) {
+        value[i] = product(d, x->count, x->phi, q->exponent + i * x->count);
+        name[i] = product(d, x->count, x->symbol, q->exponent + i * x->count);
+    }
+    size_t last = q->terms - 1;
+    bool found =
+        nh_relation_find(d, q->terms, value, result->question->system->parameters, result->question->model->parameter,
+                         (size_t)result->question->options.proof_terms, c) == NH_RELATION_UNIQUE;
+    found = found && !nh_is_zero(d, c[last]);
+    if (found) {
+        nh_ex right = nh_int(d, 0);
+        for (size_t i = 0; i < last; i++)
+            right = nh_sub(d, right, nh_mul(d, nh_simplify(d, nh_div(d, c[i], c[last])), name[i]));
+        char *lhs = nh_print_string(d, name[last]), *rhs = nh_print_string(d, right);
+        *out = (nh_further_relation){nh_arena_strdup(result->arena, lhs), nh_arena_strdup(result->arena, rhs)};
+        nh_free(rhs);
+        nh_free(lhs);
+    }
+    nh_free(c);
+    nh_free(name);
+    nh_free(value);
+    return found;
+}
+
+static size_t highest(const nh_analysis *result)
+{
+    size_t degree = 0;
+    for (size_t k = 0; k < result->list->furthers; k++)
+        if (result->list->further[k].degree > degree) degree = result->list->further[k].degree;
+    return degree;
+}
+
+/* Among the currents and the further integrals: which products are related is seen modulo a prime (count/count.h),
+ * the coefficients are exact, over the parameters.  Fills result->relation. */
+static void find_relations(nh_analysis *result)
+{
+    enum { longest = 60 };
+    size_t room = result->list->count + result->list->furthers + 1;
+    ring x = {.r = result, .phi = nh_alloc_array(room, sizeof(nh_ex)), .symbol = nh_alloc_array(room, sizeof(nh_ex))};
+    nh_count_relation found[NH_MOST_RELATIONS];
+    for (size_t k = 0; k < result->list->count; k++) put(&x, &result->list->found[k]);
+    for (size_t k = 0; k < result->list->furthers; k++) put(&x, &result->list->further[k].current);
+    size_t n = 0;
+    for (size_t degree = 2 * highest(result); degree > 0 && n == 0;
+         degree--) /* lower where there are too many products */
+        n = nh_count_relations(result->question->model, x.count, x.phi, degree, result->arena, NH_MOST_RELATIONS,
+                               found);
+    result->relation = nh_arena_alloc(result->arena, (n + 1) * sizeof *result->relation);
+    for (size_t i = 0; i < n && !nh_late(); i++)
+        if (found[i].terms > 1 && found[i].terms <= longest)
+            result->relations += exact(&x, &found[i], &result->relation[result->relations]);
+    nh_free(x.symbol);
+    nh_free(x.phi);
+}
+
+/* ---- missing ---- */
 
 typedef nh_missing_search search;
 
@@ -18,20 +108,19 @@ typedef nh_missing_search search;
 
 size_t nh_missing_most_proved(const nh_analysis *result)
 {
-    const nh_current_list *list = result->list;
-    return list->count + list->furthers + list->pieces + 1;
+    return result->list->count + result->list->furthers + result->list->pieces + 1;
 }
 
 /* The proved currents, into phi.  A degree that the user asks for may cost more. */
 static nh_completeness_question question(const nh_analysis *result, nh_ex *phi)
 {
-    const nh_options *options = &result->question->options;
     enum { times_if_asked = 10 };
     nh_completeness_question q = {.current = phi,
                                   .all = result->search == NH_SEARCH_COMPLETE,
-                                  .degree = (size_t)options->degree,
-                                  .work = options->count_work * (options->degree ? times_if_asked : 1),
-                                  .threads = nh_threads(options->threads),
+                                  .degree = (size_t)result->question->options.degree,
+                                  .work = result->question->options.count_work *
+                                          (result->question->options.degree ? times_if_asked : 1),
+                                  .threads = nh_threads(result->question->options.threads),
                                   .memory = result->counted};
     q.known = nh_counted_proved(result, phi, &q.general, &q.independent);
     q.regional = nh_counted_regional(result, phi + q.known, &q.regional_general);
@@ -179,11 +268,10 @@ bool nh_missing_primitives(nh_stage_solver *solver)
 
 void nh_missing_name_further(nh_analysis *result)
 {
-    const nh_current_list *list = result->list;
-    for (size_t k = 0; k < list->furthers; k++)
-        nh_current_list_describe(result, &list->further[k].current)->name =
-            nh_currents_name(result, list->count + list->pieces + k + 1);
-    if (list->furthers) nh_relations_find(result);
+    for (size_t k = 0; k < result->list->furthers; k++)
+        nh_current_list_describe(result, &result->list->further[k].current)->name =
+            nh_currents_name(result, result->list->count + result->list->pieces + k + 1);
+    if (result->list->furthers) find_relations(result);
 }
 
 void nh_missing_count(nh_analysis *result, bool searched)

@@ -1,6 +1,6 @@
 /* A stage of the search: what is integrated along a coordinate.  With x' = c f'(h) h' for a current c, x - c f is
  * constant; with dv/dt = c f'(h) h' for a velocity v, v - c f. */
-#include "count/closed_primitives.h"
+#include "count/closed_words.h"
 #include "exact/normal.h"
 #include "exact/square.h"
 #include "graph/dag.h"

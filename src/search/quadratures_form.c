@@ -75,27 +75,19 @@ static nh_ex shorter_roots(const nh_model *model, nh_ex e)
 }
 
 /* log(c u) as log u, with a positive constant c of parameters: in a current it adds a constant only. */
-static nh_ex shorter_logarithms(const nh_analysis *result, nh_ex e)
+static nh_ex shorter_logarithm(void *model_, nh_ex call)
 {
-    enum { most = 24 };
-    const nh_model *model = result->question->model;
+    const nh_model *model = model_;
     nh_dag *d = model->dag;
-    NH_LIST(call);
-    nh_ex by[most];
-    size_t n = nh_functions_in(d, e, &call), logs = 0;
-    for (size_t i = 0; i < n && n <= most; i++) {
-        nh_ex u = nh_child(d, call[i], 0), c = nh_int(d, 1);
-        if (nh_function_of(d, call[i]) != NH_LOG || nh_kind_of(d, u) != NH_PRODUCT) continue;
-        c = nh_number(d, nh_constant_of(d, u));
-        for (size_t f = 0; f < nh_arity(d, u); f++)
-            if (nh_model_is_constant(model, nh_child(d, u, f)) && nh_model_is_constant(model, nh_exponent_of(d, u, f)))
-                c = nh_mul(d, c, nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f)));
-        nh_ex valued = nh_model_values(model, c);
-        if (nh_kind_of(d, valued) != NH_NUMBER || nh_num_value(nh_number_of(d, valued)) <= 0) continue;
-        by[logs] = nh_call(d, NH_LOG, nh_div(d, u, c));
-        call[logs++] = call[i];
-    }
-    return nh_substitute(d, e, logs, call, by);
+    nh_ex u = nh_function_of(d, call) == NH_LOG ? nh_child(d, call, 0) : 0;
+    if (!u || nh_kind_of(d, u) != NH_PRODUCT) return 0;
+    nh_ex c = nh_number(d, nh_constant_of(d, u));
+    for (size_t f = 0; f < nh_arity(d, u); f++)
+        if (nh_model_is_constant(model, nh_child(d, u, f)) && nh_model_is_constant(model, nh_exponent_of(d, u, f)))
+            c = nh_mul(d, c, nh_pow(d, nh_child(d, u, f), nh_exponent_of(d, u, f)));
+    nh_ex valued = nh_model_values(model, c);
+    bool positive = nh_kind_of(d, valued) == NH_NUMBER && nh_num_value(nh_number_of(d, valued)) > 0;
+    return positive ? nh_call(d, NH_LOG, nh_div(d, u, c)) : 0;
 }
 
 static bool has_roots_of_states(const nh_model *model, nh_ex e)
@@ -160,19 +152,11 @@ static nh_ex roots_of_the_equations(const nh_model *model, nh_ex e)
 }
 
 /* sign(u) as u/sqrt(u^2): then it goes into the roots beside it. */
-static nh_ex signs_as_roots(nh_dag *d, nh_ex e)
+static nh_ex sign_as_root(void *dag, nh_ex call)
 {
-    enum { most = 24 };
-    NH_LIST(call);
-    nh_ex by[most];
-    size_t n = nh_functions_in(d, e, &call), signs = 0;
-    for (size_t i = 0; i < n && i < most; i++) {
-        nh_ex u = nh_child(d, call[i], 0);
-        if (nh_function_of(d, call[i]) != NH_SIGN) continue;
-        by[signs] = nh_div(d, u, nh_sqrt(d, nh_powi(d, u, 2)));
-        call[signs++] = call[i];
-    }
-    return nh_substitute(d, e, signs, call, by);
+    if (nh_function_of(dag, call) != NH_SIGN) return 0;
+    nh_ex u = nh_child(dag, call, 0);
+    return nh_div(dag, u, nh_sqrt(dag, nh_powi(dag, u, 2)));
 }
 
 /* Is u = a + b sqrt(R), with one root, but for those of constants? */
@@ -242,18 +226,18 @@ static bool area_of(const nh_model *model, nh_ex u, nh_ex *out)
 }
 
 /* log(y + sqrt(1 + y^2)) as arsinh(y): shorter, and no logarithm of a current is added. */
+static nh_ex area_of_logarithm(void *model_, nh_ex call)
+{
+    const nh_model *model = model_;
+    nh_ex area;
+    bool log = nh_function_of(model->dag, call) == NH_LOG;
+    return log && area_of(model, nh_child(model->dag, call, 0), &area) ? area : 0;
+}
+
 static nh_ex areas_of_logarithms(const nh_model *model, nh_ex e)
 {
-    enum { most = 24 };
-    nh_dag *d = model->dag;
-    NH_LIST(call);
-    nh_ex by[most];
-    size_t n = nh_functions_in(d, e, &call), areas = 0;
-    for (size_t i = 0; i < n && n <= most; i++) {
-        if (nh_function_of(d, call[i]) != NH_LOG || !area_of(model, nh_child(d, call[i], 0), &by[areas])) continue;
-        call[areas++] = call[i];
-    }
-    return areas ? nh_simplify_short(d, nh_substitute(d, e, areas, call, by), 0) : e;
+    nh_ex with = nh_substitute_calls(model->dag, e, area_of_logarithm, (void *)model);
+    return with == e ? e : nh_simplify_short(model->dag, with, 0);
 }
 
 /* Most are not, which doubles show: a rate that is nowhere as small as rounding. */
@@ -340,16 +324,17 @@ static nh_ex without_a_divisor(const nh_model *model, nh_ex e)
 /* A form of a constant without signs, its roots joined.  The time of a swing has signs. */
 static nh_ex in_other_roots(const nh_analysis *result, nh_ex e, bool general)
 {
-    const nh_options *options = &result->question->options;
     const nh_model *model = result->question->model;
-    if (nh_named_function_has_elliptic(model->dag, e) && nh_prove_current(model, e, true, options).all_parameters)
+    if (nh_named_function_has_elliptic(model->dag, e) &&
+        nh_prove_current(model, e, true, &result->question->options).all_parameters)
         return e;
-    nh_ex joined = shorter_roots(model, joined_roots(model->dag, signs_as_roots(model->dag, e)));
+    nh_ex joined =
+        shorter_roots(model, joined_roots(model->dag, nh_substitute_calls(model->dag, e, sign_as_root, model->dag)));
     nh_ex rooted = nh_simplify_short(model->dag, roots_of_the_equations(model, joined), 0);
     bool shorter = nh_complexity(model->dag, rooted) < nh_complexity(model->dag, e);
     if (e == rooted || !general) return e;
-    if (!shorter && nh_prove_current(model, e, true, options).all_parameters) return e;
-    return nh_prove_current(model, rooted, true, options).all_parameters ? rooted : e;
+    if (!shorter && nh_prove_current(model, e, true, &result->question->options).all_parameters) return e;
+    return nh_prove_current(model, rooted, true, &result->question->options).all_parameters ? rooted : e;
 }
 
 nh_ex nh_quadratures_form(const nh_analysis *result, nh_ex value, bool general)
@@ -357,7 +342,8 @@ nh_ex nh_quadratures_form(const nh_analysis *result, nh_ex value, bool general)
     enum { most_divisors = 3 };
     const nh_model *model = result->question->model;
     nh_dag *d = model->dag;
-    nh_ex e = shorter_roots(model, nh_simplify_short(d, shorter_logarithms(result, shorter_roots(model, value)), 0));
+    nh_ex short_logs = nh_substitute_calls(d, shorter_roots(model, value), shorter_logarithm, (void *)model);
+    nh_ex e = shorter_roots(model, nh_simplify_short(d, short_logs, 0));
     nh_ex stable = areas_of_logarithms(model, better_area_functions(model, e));
     if (stable != e && nh_prove_current(model, stable, true, &result->question->options).all_parameters) e = stable;
     e = in_other_roots(result, e, general);

@@ -2,18 +2,64 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "exact/normal.h"
+#include "exact/relation_express.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/function.h"
 #include "graph/node.h"
 #include "graph/num.h"
 #include "graph/print.h"
+#include "integrals/dictionary.h"
 #include "integrals/pencil.h"
 #include "integrals/recognise.h"
 #include "search/stage_solver.h"
 #include "search/naming.h"
 #include "search/stages.h"
-#include "search/volume_rate.h"
+
+/* ---- The rate at which the flow of the equations of motion changes volumes ----
+ *
+ *     div Gamma = d rho^s/dq^s + d a^i/dw^i
+ *
+ * in the coordinates and velocities of the chart.  Where it is the rate of a function Q of the coordinates, exp(-Q) is
+ * the density of an invariant measure, and products of powers of exp(Q) with other functions are often conserved: of a
+ * wheeled cart w exp(k (psi1 + psi2)), in a direction in which no single coordinate grows [BorisovMamaev2008]. */
+
+enum { largest_form = 2000 };
+
+static nh_ex divergence(const nh_model *model)
+{
+    nh_dag *d = model->dag;
+    nh_ex sum = nh_int(d, 0);
+    for (size_t s = 0; s < model->m; s++)
+        sum = nh_add(d, sum, nh_diff(d, model->rho[s], model->system->coordinate[s].q));
+    for (size_t i = 0; i < model->n; i++) sum = nh_add(d, sum, nh_diff(d, model->a[i], model->chart->w[i]));
+    return nh_simplify_short(d, sum, largest_form);
+}
+
+/* Q as a sum of coordinates and logarithms of lengths, with coefficients that are functions of the parameters; 0 where
+   div Gamma = 0 or no such sum is found.  `max_terms`: of polynomials. */
+static nh_ex volume_rate_potential(const nh_model *model, const nh_dictionary *words, size_t max_terms)
+{
+    nh_dag *d = model->dag;
+    nh_ex rate = divergence(model), Q = nh_int(d, 0);
+    if (nh_kind_of(d, rate) == NH_NUMBER) return 0;
+    size_t n = 0, most = model->m + words->lengths;
+    nh_ex *part = nh_alloc_array(most + 1, sizeof *part), *c = nh_alloc_array(most + 1, sizeof *c),
+          *e = nh_alloc_array(most + 1, sizeof *e);
+    for (size_t s = 0; s < model->m; s++) part[n++] = model->system->coordinate[s].q;
+    for (size_t s = 0; s < words->lengths; s++) part[n++] = nh_call(d, NH_LOG, words->length[s]);
+    for (size_t j = 0; j < n; j++) e[j] = nh_model_gamma(model, part[j]);
+    e[n] = rate;
+    bool found = nh_relation_express(d, n + 1, e, model->system->parameters, model->parameter, max_terms, c);
+    for (size_t j = 0; j < n && found; j++) Q = nh_add(d, Q, nh_mul(d, c[j], part[j]));
+    nh_free(e);
+    nh_free(c);
+    nh_free(part);
+    return found ? Q : 0;
+}
+
+/* ---- rates ---- */
 
 enum { most_values = 24, most_rates = 4 };
 /* rounding splits a double eigenvalue into two by its square root; their mean is right to rounding */
@@ -134,14 +180,14 @@ static nh_ex number_of(const rate_context *c, double value)
 static nh_ex named(rate_context *c, double value)
 {
     const nh_analysis *r = c->x->r;
-    const nh_options *options = &r->question->options;
-    double exact = options->recognise;
+    double exact = r->question->options.recognise;
     nh_ex e = 0;
     for (int fold = 0; fold < folds(c) && !e; fold++) {
-        e = nh_name_value(r->question->model, unfolded(value, fold), follow, c, exact, (uint64_t)options->seed);
+        e = nh_name_value(r->question->model, unfolded(value, fold), follow, c, exact,
+                          (uint64_t)r->question->options.seed);
         if (!e)
             e = nh_name_value(r->question->model, unfolded(value, fold), follow, c, few_digits * exact,
-                              (uint64_t)options->seed);
+                              (uint64_t)r->question->options.seed);
     }
     return e ? e : number_of(c, value);
 }
@@ -308,17 +354,19 @@ static void one_by_one(waves *w, const char *text)
 static bool pencil_of(nh_stage_solver *solver, nh_ex q, const char *name, const nh_family *base, bool linear)
 {
     nh_analysis *r = solver->r;
-    nh_model *model = r->question->model;
     nh_error ignored;
     nh_error_clear(&ignored);
     size_t before = r->list->independent;
     nh_family family[2];
-    if (nh_counted_superfluous(&solver->counted, 1, base, nh_depends(model->dag, q, model->system->t))) return false;
-    nh_ansatz *a = nh_ansatz_create(model, solver->ranges, 1, base, solver->ranges->count / 2 - 2, &ignored);
+    if (nh_counted_superfluous(&solver->counted, 1, base,
+                               nh_depends(r->question->model->dag, q, r->question->model->system->t)))
+        return false;
+    nh_ansatz *a =
+        nh_ansatz_create(r->question->model, solver->ranges, 1, base, solver->ranges->count / 2 - 2, &ignored);
     if (!a) return false;
     waves w = {.context = {.x = solver, .base = a, .q = q}, .base = base, .linear = linear};
     for (size_t i = 0; i < solver->words.waves; i++) w.context.periodic |= solver->words.wave[i] == q;
-    w.count = without_driven(solver, q, rates(model, &w.context, w.re, w.im, most_values), w.re, w.im);
+    w.count = without_driven(solver, q, rates(r->question->model, &w.context, w.re, w.im, most_values), w.re, w.im);
     if (w.count > most_rates) w.count = most_rates;
     choose_forms(&w);
     if (w.count) {
@@ -364,7 +412,7 @@ static void volume_rate(nh_stage_solver *solver)
 {
     const nh_model *model = solver->r->question->model;
     if ((model->k == 0 && !model->system->has_forces) || nh_stage_solver_done(solver)) return;
-    nh_ex Q = nh_volume_rate_potential(model, &solver->words, (size_t)solver->r->question->options.proof_terms);
+    nh_ex Q = volume_rate_potential(model, &solver->words, (size_t)solver->r->question->options.proof_terms);
     if (Q && nh_kind_of(model->dag, Q) != NH_SYMBOL) linear_rates(solver, Q, "the logarithm of the invariant density");
 }
 

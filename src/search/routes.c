@@ -1,4 +1,4 @@
-#include "search/routes.h"
+#include "search/search.h"
 
 #include <math.h>
 #include <string.h>

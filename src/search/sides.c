@@ -1,26 +1,24 @@
-#include "search/sides.h"
+#include "search/searches.h"
 
 #include <math.h>
 
 #include "base/budget.h"
 #include "base/progress.h"
 #include "exact/normal.h"
+#include "exact/walls.h"
 #include "geometry/distribution.h"
 #include "graph/dag.h"
 #include "graph/function.h"
 #include "graph/node.h"
 #include "search/missing.h"
 
-enum { most_sides = 4, nested = 4 };
+enum { most_sides = 4 };
 
 typedef struct {
     const nh_model *o;
     nh_dag *d;
-    size_t count;
-    nh_ex u[most_sides], symbol[most_sides];
-    int sign[most_sides]; /* where the model is sampled; 1 where it has both */
-    bool good;            /* there was room for all */
-} sides;
+    nh_wall_sides sides;
+} kinks;
 
 static bool depends_on_state(const nh_model *model, nh_ex u)
 {
@@ -33,47 +31,25 @@ static bool depends_on_state(const nh_model *model, nh_ex u)
     return found;
 }
 
-/* The symbol for sign(u). */
-static nh_ex side_of(sides *x, nh_ex u)
+static nh_ex side_of_state(void *kinks_, nh_ex u)
 {
-    for (size_t k = 0; k < x->count; k++)
-        if (x->u[k] == u) return x->symbol[k];
-    if (x->count == most_sides) {
-        x->good = false;
-        return nh_int(x->d, 1);
-    }
-    x->u[x->count] = u;
-    x->sign[x->count] = nh_model_sign(x->o, u) < 0 ? -1 : 1;
-    return x->symbol[x->count++] = nh_symbol_fresh(x->d, "side");
+    kinks *x = kinks_;
+    return depends_on_state(x->o, u) ? nh_walls_side(&x->sides, u) : 0;
 }
 
 /* e with symbols for the signs, the outer ones first: their arguments are kept as they stand in the system. */
-static nh_ex with_symbols(sides *x, nh_ex e)
+static nh_ex with_symbols(kinks *x, nh_ex e) { return nh_walls_piece(x->d, e, side_of_state, x); }
+
+/* The sign where the model is sampled; 1 where it has both. */
+static int sign_of(const kinks *x, size_t k)
 {
-    enum { most = 64 };
-    nh_dag *d = x->d;
-    NH_LIST(call);
-    nh_ex by[most];
-    for (size_t level = 0; level < nested; level++) {
-        size_t n = nh_functions_in(d, e, &call), pieces = 0;
-        if (n > most) x->good = false;
-        for (size_t i = 0; i < n && i < most; i++) {
-            nh_function f = nh_function_of(d, call[i]);
-            nh_ex u = f == NH_ABS || f == NH_SIGN ? nh_child(d, call[i], 0) : 0;
-            if (!u || !depends_on_state(x->o, u)) continue;
-            call[pieces] = call[i];
-            by[pieces++] = nh_mul(d, side_of(x, u), f == NH_ABS ? u : nh_int(d, 1));
-        }
-        if (!pieces) break;
-        e = nh_substitute(d, e, pieces, call, by);
-    }
-    return e;
+    return nh_model_sign(x->o, nh_child(x->d, x->sides.sign[k], 0)) < 0 ? -1 : 1;
 }
 
 /* The system with symbols for the signs, which are parameters of it; it shares everything else. */
-static nh_system *without_kinks(sides *x, nh_arena *arena, const nh_system *system)
+static nh_system *without_kinks(kinks *x, nh_arena *arena, const nh_system *system)
 {
-    nh_system *s = nh_other_system_copy(arena, system, most_sides, 0);
+    nh_system *s = nh_other_system_copy(arena, system, NH_MOST_SIDES, 0);
     s->lagrangian = with_symbols(x, system->lagrangian);
     s->force = nh_arena_alloc(arena, (s->coordinates + 1) * sizeof *s->force);
     for (size_t i = 0; i < s->coordinates; i++) s->force[i] = with_symbols(x, system->force[i]);
@@ -83,50 +59,49 @@ static nh_system *without_kinks(sides *x, nh_arena *arena, const nh_system *syst
         c->rhs = with_symbols(x, c->rhs);
         if (c->position) c->level = with_symbols(x, c->level);
     }
-    for (size_t k = 0; k < x->count; k++) nh_other_system_parameter(s, "side", x->symbol[k], x->sign[k]);
+    for (size_t k = 0; k < x->sides.count; k++) nh_other_system_parameter(s, "side", x->sides.symbol[k], sign_of(x, k));
     return s;
 }
 
 /* e with the signs in their places; a root of one is real on one side only, and e is given for that on which the model
  * is sampled. */
-static nh_ex with_signs(const sides *x, nh_ex e)
+static nh_ex with_signs(const kinks *x, nh_ex e)
 {
-    enum { most = 64 };
     nh_dag *d = x->d;
     NH_LIST(base);
-    for (size_t j = x->count; j-- > 0;) {
-        nh_ex sign = nh_call(d, NH_SIGN, x->u[j]);
+    for (size_t j = x->sides.count; j-- > 0;) {
+        nh_ex sign = x->sides.sign[j], side = x->sides.symbol[j];
         size_t n = nh_radicands_in(d, e, &base);
         for (size_t i = 0; i < n; i++)
-            if (nh_depends(d, base[i], x->symbol[j])) sign = nh_int(d, x->sign[j]);
-        e = nh_substitute(d, e, 1, &x->symbol[j], &sign);
+            if (nh_depends(d, base[i], side)) sign = nh_int(d, sign_of(x, j));
+        e = nh_substitute(d, e, 1, &side, &sign);
     }
     return nh_simplify_short(d, e, 0);
 }
 
 /* One of the system without kinks, with the signs in their places, as a current of the system. */
-static void take(nh_stage_solver *solver, const sides *x, const nh_current *f)
+static void take(nh_stage_solver *solver, const kinks *x, const nh_current *f)
 {
     if (f->series || !f->proof.proved || nh_stage_solver_done(solver)) return;
     nh_stage_solver_certify(solver, with_signs(x, f->phi), "the equations on one side of a kink");
 }
 
 /* First those that are polynomials, and functions of the others there: the others may have a root of a sign. */
-static void take_all(nh_stage_solver *solver, const sides *x, const nh_analysis *found)
+static void take_all(nh_stage_solver *solver, const kinks *x, const nh_analysis *found)
 {
-    const nh_current_list *list = found->list;
-    for (size_t k = 0; k < list->furthers; k++) take(solver, x, &list->further[k].current);
-    for (size_t k = 0; k < list->count; k++) take(solver, x, &list->found[k]);
+    for (size_t k = 0; k < found->list->furthers; k++) take(solver, x, &found->list->further[k].current);
+    for (size_t k = 0; k < found->list->count; k++) take(solver, x, &found->list->found[k]);
 }
 
 void nh_sides_search(nh_stage_solver *solver, nh_whole_search *search)
 {
     nh_analysis *result = solver->r;
-    sides x = {.o = result->question->model, .d = result->question->model->dag, .good = true};
+    kinks x = {
+        .o = result->question->model, .d = result->question->model->dag, .sides.dag = result->question->model->dag};
     nh_error ignored;
     nh_error_clear(&ignored);
     nh_system *system = without_kinks(&x, result->arena, result->question->system);
-    if (!x.count || !x.good || nh_late()) return;
+    if (!x.sides.count || x.sides.count > most_sides || x.sides.left_out || nh_late()) return;
     nh_progress("the equations on one side of a kink", -1);
     nh_chart_choice choice = result->question->model->chart->quasi ? NH_CHART_AUTO : NH_CHART_COORDINATES;
     nh_analysis *side = nh_other_system_open(result, system, choice);

@@ -1,4 +1,4 @@
-#include "search/slopes.h"
+#include "search/searches.h"
 
 #include <string.h>
 
@@ -6,6 +6,7 @@
 #include "exact/antiderivative.h"
 #include "exact/normal.h"
 #include "exact/square.h"
+#include "exact/walls.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/function.h"
@@ -31,6 +32,12 @@ static nh_ex in_states(const plane *y, nh_ex e)
     return nh_substitute(y->d, e, 2, from, to);
 }
 
+static nh_ex side_of_u(void *plane_, nh_ex e)
+{
+    const plane *y = plane_;
+    return e == y->u ? y->side : 0;
+}
+
 static int sign_of(void *plane_, nh_ex e)
 {
     const plane *y = plane_;
@@ -43,9 +50,8 @@ static nh_ex with_slope(plane *y, nh_ex e)
     enum { most = 32 };
     nh_dag *d = y->d;
     NH_LIST(base);
-    NH_LIST(call);
-    nh_ex by[most], outside, inside, pu = nh_mul(d, y->p, y->u);
-    size_t n = nh_radicands_in(d, e, &base), calls, kept = 0;
+    nh_ex outside, inside, pu = nh_mul(d, y->p, y->u);
+    size_t n = nh_radicands_in(d, e, &base);
     for (size_t i = 0; i < n && i < most && y->roots < most_roots; i++) {
         nh_ex radicand = nh_simplify_short(d, nh_substitute(d, base[i], 1, &y->v, &pu), 0);
         bool square = nh_depends(d, radicand, y->u) && nh_square_split(d, radicand, &outside, &inside);
@@ -56,14 +62,7 @@ static nh_ex with_slope(plane *y, nh_ex e)
         y->root[y->roots++] = nh_div(d, nh_sqrt(d, base[i]), size);
     }
     e = nh_substitute(d, e, 1, &y->v, &pu);
-    calls = nh_functions_in(d, e, &call);
-    for (size_t i = 0; i < calls && i < most; i++) {
-        nh_function f = nh_function_of(d, call[i]);
-        if ((f != NH_ABS && f != NH_SIGN) || nh_child(d, call[i], 0) != y->u) continue;
-        call[kept] = call[i];
-        by[kept++] = f == NH_ABS ? nh_mul(d, y->side, y->u) : y->side;
-    }
-    return nh_simplify_short(d, nh_substitute(d, e, kept, call, by), 0);
+    return nh_simplify_short(d, nh_walls_piece(d, e, side_of_u, y), 0);
 }
 
 static bool integral(const plane *y, nh_ex f, nh_ex *F)

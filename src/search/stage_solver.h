@@ -3,7 +3,7 @@
 #define NH_STAGE_SOLVER_H
 
 #include "integrals/dictionary.h"
-#include "integrals/sectors.h"
+#include "integrals/reflection.h"
 #include "search/counted.h"
 #include "search/currents.h"
 

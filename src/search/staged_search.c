@@ -1,4 +1,4 @@
-#include "search/staged_search.h"
+#include "search/search.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,13 +11,9 @@
 #include "integrals/force_potential.h"
 #include "integrals/prove.h"
 #include "search/stage_solver.h"
-#include "search/constraint_integrals.h"
-#include "search/frames.h"
-#include "search/integral_levels.h"
+#include "search/searches.h"
 #include "search/missing.h"
 #include "search/quadratures.h"
-#include "search/sides.h"
-#include "search/slopes.h"
 #include "search/stages.h"
 
 /* The part of a momentum with velocities, where there is another, which may come from a total derivative in L. */

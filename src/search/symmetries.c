@@ -1,5 +1,5 @@
 /* Each symmetry is derived in a copy of the model; its expressions are brought back from there. */
-#include "search/symmetries.h"
+#include "search/search.h"
 
 #include <string.h>
 

@@ -2,14 +2,14 @@
  *
  * Z(Phi) is linear in Phi, with Z(1) = Gamma/Lbar and Z(Phi Psi) = Phi Z(Psi) + Psi Z(Phi) - Phi Psi Gamma/Lbar.  That
  * Z is projectable, is of case 1, or has [Gamma, Z] in the canonical distribution, are linear conditions on Phi
- * (bracket_fields.h): subspaces, found exactly (relation_space.h).  The rank of brackets bounds the number of
+ * (bracket.h): subspaces, found exactly (relation_space.h).  The rank of brackets bounds the number of
  * independent currents that fulfil one of the last two conditions at all (closure.h). */
 #ifndef NH_SYMMETRY_SPACE_H
 #define NH_SYMMETRY_SPACE_H
 
 #include "base/option.h"
 #include "exact/relation_space.h"
-#include "integrals/bracket_fields.h"
+#include "integrals/bracket.h"
 #include "geometry/closure.h"
 
 typedef struct {

@@ -5,7 +5,7 @@
 
 #include "base/option.h"
 #include "geometry/determining.h"
-#include "geometry/inertial.h"
+#include "geometry/submanifold.h"
 #include "integrals/bracket.h"
 #include "search/equation_symmetries.h"
 

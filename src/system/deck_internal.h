@@ -47,4 +47,12 @@ bool nh_deck_fail_hidden(const char *name, nh_error *error);
 /* A text as it is quoted in a message: one line, not too long. */
 void nh_deck_shorten(const char *text, char out[NH_DECK_SHOWN]);
 
+/* Errors of libyaml as messages for users.  Private to deck_read.c. */
+
+#define NH_DECK_QUOTE_HINT "put the expression in double quotes"
+
+/* `problem` and `context` are libyaml's words (context may be NULL), `at` and `since` the bytes where they stand. */
+bool nh_deck_explain(const nh_deck *deck, const char *problem, size_t at, const char *context, size_t since,
+                     nh_error *error);
+
 #endif

@@ -5,7 +5,6 @@
 #include <yaml.h>
 
 #include "system/deck_internal.h"
-#include "system/deck_yaml.h"
 #include "system/urdf.h"
 #include "system/xml.h"
 #include "base/escape.h"

@@ -2,7 +2,7 @@
  *
  * Most of these errors come from an expression that YAML reads in another way, so that most hints say where quotes
  * help. */
-#include "system/deck_yaml.h"
+#include "system/deck_internal.h"
 
 #include <ctype.h>
 #include <string.h>

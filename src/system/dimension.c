@@ -1,5 +1,5 @@
 /* dimension: see dimension.h. */
-#include "system/dimension.h"
+#include "system/system_internal.h"
 
 #include <math.h>
 #include <string.h>

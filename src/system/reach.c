@@ -1,4 +1,4 @@
-#include "system/reach.h"
+#include "system/system_internal.h"
 
 #include <math.h>
 

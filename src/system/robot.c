@@ -1,5 +1,5 @@
 /* robot: see robot.h. */
-#include "system/robot.h"
+#include "system/system_internal.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -103,7 +103,7 @@ typedef struct {
     nh_named *definition;
     nh_interval *interval; /* the sampling box as far as the user gave it */
     size_t reaches;
-    nh_interval *reach;       /* default intervals that were widened (system/reach.h) */
+    nh_interval *reach;       /* default intervals that were widened (system/system_internal.h) */
     nh_named *current, *trap; /* known currents; functions known not to be conserved */
     nh_chain *chain;          /* bodies and joints; NULL when the file has none */
     size_t symmetries;        /* fields on configuration space that the file names as generators of a group */
@@ -137,7 +137,7 @@ typedef struct {
 nh_system *nh_system_read(const char *path, size_t settings, const nh_setting *setting, nh_error *error);
 nh_system *nh_system_parse(const char *name, const char *text, size_t settings, const nh_setting *setting,
                            nh_error *error);
-/* The tree of a file with all that it includes, completed as system/robot.h says. */
+/* The tree of a file with all that it includes, completed as system/system_internal.h says. */
 nh_deck *nh_system_deck(const char *path, nh_error *error);
 void nh_system_free(nh_system *system);
 

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "system/deck.h"
 #include "system/system.h"
 
 /* NH_FRAMED: angular velocities of orientations are symbols of their own. */
@@ -85,5 +86,47 @@ void nh_orientation_build_all(nh_system *system);
 /* Where the file chooses no velocities: those of the other coordinates and the angular velocities, without those that
  * the constraints determine (frame_velocities.c). */
 bool nh_orientation_velocities(nh_system_reader *r);
+
+/* Default sampling intervals that reach beyond the walls of functions of one symbol.
+ *
+ * |t - 2| is 2 - t all over 0 < t < 1: samples from there alone would show what holds for t < 2 only.  So where a
+ * wall (exact/walls.h) of the Lagrangian, a force or a constraint depends on one symbol alone, and the default
+ * interval lies on one side of it, the interval is widened to half of its width beyond. */
+
+/* Sets system->reach; intervals that the file gives are left as they are. */
+void nh_reach_walls(nh_system *system);
+
+/* Notes on wheels that surely are not meant so. */
+
+/* Wheels that do not touch their surface wherever the system is, and wheels whose inertia is not round about the axle
+ * about which they turn, with the values of the parameters.  At most two texts in the system's memory; returns how
+ * many. */
+size_t nh_wheel_checks(const nh_system *system, const char *out[2]);
+
+/* Do the terms of a system have one unit?
+ *
+ * Symbols have the units that the file gives: parameters and coordinates their own, a coordinate of type length metres
+ * of unknown scale, an angle 1, a velocity that of its coordinate by time.  A symbol without a unit may have any unit,
+ * and so may all that contains it; so may a number that is added.  A number as a factor has none.  Compared are the
+ * terms of a sum, the two sides of a constraint, arguments of functions and exponents with 1, and a generalized force
+ * with the Lagrangian's unit by that of its coordinate.  Systems of bodies and joints are not compared: numbers stand
+ * for masses and lengths there. */
+
+/* Writes a sentence about each part of the system in which units do not agree, in memory of the system; returns how
+ * many. */
+size_t nh_dimension_check(nh_system *system, const char ***out);
+
+/* What a file with bodies leaves to be completed.
+ *
+ *     base: planar                  the body without a joint is carried: fixed, planar, floating (angles),
+ *                                   free (an orientation)
+ *     wheels: [left, {body: right, radius: 0.1}]
+ *
+ * The body that is the child of no joint gets a joint: of the type `base`; without it, where the bodies are those of a
+ * robot description, planar if there are wheels and otherwise fixed.  A wheel that names a body alone rolls; its axle
+ * is the axis of the body's joint, and a robot description gives its radius. */
+
+/* After all files are merged. */
+bool nh_robot_complete(nh_deck *deck, nh_error *error);
 
 #endif

@@ -4,10 +4,8 @@
 #include "base/text.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
-#include "system/wheel_checks.h"
 #include "graph/declared.h"
 #include "graph/node.h"
-#include "system/dimension.h"
 #include "system/system_internal.h"
 
 /* As many as degrees of freedom? */

@@ -9,8 +9,6 @@
 #include "graph/diff.h"
 #include "graph/parse.h"
 #include "system/ordinary.h"
-#include "system/reach.h"
-#include "system/robot.h"
 #include "system/system_internal.h"
 #include "system/units.h"
 

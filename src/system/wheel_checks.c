@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "system/bodies_tree.h"
-#include "system/wheel_checks.h"
+#include "system/system_internal.h"
 
 static const double rounding = 1e-6; /* files have numbers with few digits */
 

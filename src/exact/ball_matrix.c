@@ -1,18 +1,191 @@
-/* ball_spectrum: approximate eigenvalues by the QR iteration, joined where they are near each other; then the number of
- * roots of the characteristic polynomial in a disc around each cluster is proved by Pellet's theorem [Marden1966, sec.
- * 28]: with p(x + c) = sum b_j x^j,
- *
- *     |b_s| r^s > sum_{j != s} |b_j| r^j        implies that exactly s roots have |x - c| < r
- *
- * The coefficients are balls, so that this holds for every matrix of the ball. */
-#include "exact/ball_spectrum.h"
+#include "exact/ball_matrix.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "base/progress.h"
+#include "exact/ball_internal.h"
+
+static bool values(nh_ball *ball, size_t n, const nh_ex *e, arb_mat_t out)
+{
+    bool good = true;
+    for (size_t i = 0; i < n * n && good; i++)
+        good = nh_ball_eval(ball, e[i], arb_mat_entry(out, (slong)(i / n), (slong)(i % n)));
+    return good;
+}
+
+/* M^-1 K */
+static bool quotient(nh_ball *ball, size_t n, const nh_ex *M, const nh_ex *K, acb_mat_t out)
+{
+    arb_mat_t left, right, both;
+    arb_mat_init(left, (slong)n, (slong)n);
+    arb_mat_init(right, (slong)n, (slong)n);
+    arb_mat_init(both, (slong)n, (slong)n);
+    bool good =
+        values(ball, n, M, left) && values(ball, n, K, right) && arb_mat_solve(both, left, right, nh_ball_bits(ball));
+    if (good) acb_mat_set_arb_mat(out, both);
+    arb_mat_clear(both);
+    arb_mat_clear(right);
+    arb_mat_clear(left);
+    return good;
+}
+
+/* As a double, with a bound of its error, the rounding included. */
+static double middle(const arb_t x, double *error)
+{
+    double value = arf_get_d(arb_midref(x), ARF_RND_NEAR), radius = mag_get_d(arb_radref(x));
+    *error = fmax(*error, radius + ldexp(fabs(value), -52));
+    return value;
+}
+
+bool nh_ball_eigenvalue_roots(nh_ball *ball, size_t n, const nh_ex *M, const nh_ex *K, double *re, double *im,
+                              double *error)
+{
+    acb_mat_t A, vectors;
+    acb_ptr near = _acb_vec_init((slong)n), value = _acb_vec_init((slong)n);
+    long bits = nh_ball_bits(ball);
+    acb_mat_init(A, (slong)n, (slong)n);
+    acb_mat_init(vectors, (slong)n, (slong)n);
+    bool good = quotient(ball, n, M, K, A);
+    if (good) acb_mat_approx_eig_qr(near, NULL, vectors, A, NULL, 0, bits);
+    good = good && acb_mat_eig_simple(value, NULL, NULL, A, near, vectors, bits);
+    *error = 0;
+    for (size_t i = 0; i < n && good; i++) {
+        good = !acb_contains_zero(value + i);
+        bool left = arf_sgn(arb_midref(acb_realref(value + i))) < 0; /* away from the branch cut of the root */
+        if (left) acb_neg(value + i, value + i);
+        acb_sqrt(value + i, value + i, bits);
+        if (left) acb_mul_onei(value + i, value + i);
+        re[i] = middle(acb_realref(value + i), error);
+        im[i] = middle(acb_imagref(value + i), error);
+    }
+    acb_mat_clear(vectors);
+    acb_mat_clear(A);
+    _acb_vec_clear(value, (slong)n);
+    _acb_vec_clear(near, (slong)n);
+    return good && isfinite(*error);
+}
+
+/* as a part of the largest: equal eigenvalues, of so many bits, are nearer */
+static const double nearly = 1e-9;
+
+static void join_equal(size_t n, double *re, double *im)
+{
+    double *mean = nh_alloc_array(2 * n + 1, sizeof *mean), largest = 0;
+    for (size_t k = 0; k < n; k++) largest = fmax(largest, hypot(re[k], im[k]));
+    for (size_t k = 0; k < n; k++) {
+        double count = 0;
+        for (size_t j = 0; j < n; j++) {
+            if (hypot(re[j] - re[k], im[j] - im[k]) > nearly * largest) continue;
+            count++;
+            mean[k] += re[j];
+            mean[n + k] += im[j];
+        }
+        mean[k] /= count;
+        mean[n + k] /= count;
+    }
+    memcpy(re, mean, n * sizeof *re);
+    memcpy(im, mean + n, n * sizeof *im);
+    nh_free(mean);
+}
+
+bool nh_ball_eigenvalues(nh_ball *ball, size_t n, const nh_ex *A, double *re, double *im)
+{
+    arb_mat_t entries;
+    acb_mat_t matrix;
+    acb_ptr value = _acb_vec_init((slong)n);
+    double error = 0;
+    arb_mat_init(entries, (slong)n, (slong)n);
+    acb_mat_init(matrix, (slong)n, (slong)n);
+    bool good = values(ball, n, A, entries);
+    if (good) {
+        acb_mat_set_arb_mat(matrix, entries);
+        acb_mat_approx_eig_qr(value, NULL, NULL, matrix, NULL, 0, nh_ball_bits(ball));
+    }
+    for (size_t i = 0; i < n && good; i++) good = acb_is_finite(value + i);
+    for (size_t i = 0; i < n && good; i++) {
+        re[i] = middle(acb_realref(value + i), &error);
+        im[i] = middle(acb_imagref(value + i), &error);
+    }
+    if (good) join_equal(n, re, im);
+    acb_mat_clear(matrix);
+    arb_mat_clear(entries);
+    _acb_vec_clear(value, (slong)n);
+    return good;
+}
+
+/* ---- is a row independent of those before it? ---- */
+
+/* The entry of a row whose distance from zero is certainly the largest; `width` where none is certainly nonzero. */
+static size_t pivot_of(size_t width, arb_srcptr row)
+{
+    size_t best = width;
+    double largest = -INFINITY;
+    for (size_t j = 0; j < width; j++) {
+        double size = nh_ball_log10_lower(row + j);
+        if (size <= largest) continue;
+        largest = size;
+        best = j;
+    }
+    return best;
+}
+
+static void eliminate(size_t rows, size_t width, arb_ptr a, size_t r, size_t pivot, long bits)
+{
+    arb_t factor;
+    arb_init(factor);
+    for (size_t i = r + 1; i < rows; i++) {
+        arb_div(factor, a + i * width + pivot, a + r * width + pivot, bits);
+        for (size_t j = 0; j < width; j++) arb_submul(a + i * width + j, factor, a + r * width + j, bits);
+        arb_zero(a + i * width + pivot);
+    }
+    arb_clear(factor);
+}
+
+static void bounds_of(size_t width, arb_srcptr row, double *lower, double *upper)
+{
+    *lower = *upper = -INFINITY;
+    for (size_t j = 0; j < width; j++) {
+        *lower = fmax(*lower, nh_ball_log10_lower(row + j));
+        *upper = fmax(*upper, nh_ball_log10_upper(row + j));
+    }
+}
+
+bool nh_ball_rank_left(nh_ball *ball, size_t rows, size_t width, const nh_ex *e, const double *scale,
+                       double *log10_lower, double *log10_upper)
+{
+    long bits = nh_ball_bits(ball);
+    arb_ptr a = _arb_vec_init((slong)(rows * width)), last = a + (rows - 1) * width;
+    arb_t factor;
+    double before_lower, before_upper;
+    bool good = true;
+    arb_init(factor);
+    for (size_t k = 0; k < rows * width && good; k++) {
+        good = nh_ball_eval(ball, e[k], a + k);
+        arb_set_d(factor, scale[k % width]);
+        arb_mul(a + k, a + k, factor, bits);
+    }
+    if (good) bounds_of(width, last, &before_lower, &before_upper);
+    good = good && isfinite(before_lower);
+    for (size_t r = 0; r + 1 < rows && good; r++) {
+        size_t pivot = pivot_of(width, a + r * width);
+        good = pivot < width;
+        if (good) eliminate(rows, width, a, r, pivot, bits);
+    }
+    if (good) {
+        bounds_of(width, last, log10_lower, log10_upper);
+        *log10_lower -= before_upper;
+        *log10_upper -= before_lower;
+    }
+    arb_clear(factor);
+    _arb_vec_clear(a, (slong)(rows * width));
+    return good;
+}
+
+/* ---- all eigenvalues, multiple and defective ones too ---- */
 
 enum { pellet_bits = 64, head_bits = 320, bits_each = 32 };
 

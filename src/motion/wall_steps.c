@@ -1,4 +1,4 @@
-#include "motion/kinks.h"
+#include "motion/wall_steps.h"
 
 #include <float.h>
 #include <math.h>
@@ -13,15 +13,15 @@ static const double nearer = 1e-3;  /* part of the way to a wall that a step tow
 /* part of the whole motion: a motion with `many` crossings in less time cannot leave the wall */
 static const double no_time = 1e-6;
 
-void nh_kinks_begin(nh_kinks *k, const nh_flow_problem *p, const double *z, size_t count, const double *times)
+void nh_wall_steps_begin(nh_wall_steps *k, const nh_flow_problem *p, const double *z, size_t count, const double *times)
 {
     double begin = times[0], end = times[count - 1];
-    *k = (nh_kinks){.change = {.count = p->walls, .size = p->size, .value = p->wall, .context = p->context},
-                    .longest = INFINITY,
-                    .last = NAN,
-                    .span = fabs(end - begin),
-                    .from = begin,
-                    .seen = INFINITY};
+    *k = (nh_wall_steps){.change = {.count = p->walls, .size = p->size, .value = p->wall, .context = p->context},
+                         .longest = INFINITY,
+                         .last = NAN,
+                         .span = fabs(end - begin),
+                         .from = begin,
+                         .seen = INFINITY};
     k->least = roundings * DBL_EPSILON * fmax(fabs(begin), fabs(end));
     if (!p->walls) return;
     nh_sign_changes_open(&k->change);
@@ -29,9 +29,9 @@ void nh_kinks_begin(nh_kinks *k, const nh_flow_problem *p, const double *z, size
     nh_sign_changes_take_sides(&k->change, begin, z);
 }
 
-void nh_kinks_coarser(nh_kinks *k, double time) { k->least = fmax(k->least, time); }
+void nh_wall_steps_coarser(nh_wall_steps *k, double time) { k->least = fmax(k->least, time); }
 
-void nh_kinks_clear(nh_kinks *k)
+void nh_wall_steps_clear(nh_wall_steps *k)
 {
     nh_sign_changes_clear(&k->change);
     nh_free(k->ends);
@@ -53,7 +53,7 @@ static double bisect(nh_sign_changes *c, double near, double far)
 }
 
 /* From now on the motion is behind the wall, at the state k->change.z. */
-void nh_kinks_go_over(nh_kinks *k, double t, nh_motion *motion)
+void nh_wall_steps_go_over(nh_wall_steps *k, double t, nh_motion *motion)
 {
     k->crossed++;
     nh_sign_changes_take_sides(&k->change, t, k->change.z);
@@ -78,7 +78,7 @@ static bool ends_on_wall(nh_sign_changes *c, double t)
     return on;
 }
 
-double nh_kinks_first(nh_kinks *k, double before, double now, nh_inside *state, void *context)
+double nh_wall_steps_first(nh_wall_steps *k, double before, double now, nh_inside *state, void *context)
 {
     nh_sign_changes *c = &k->change;
     double near, far;
@@ -91,7 +91,7 @@ double nh_kinks_first(nh_kinks *k, double before, double now, nh_inside *state, 
 /* ---- one-step methods ---- */
 
 typedef struct {
-    const nh_kinks *k;
+    const nh_wall_steps *k;
     double before, now;
 } segment;
 
@@ -107,7 +107,7 @@ static bool between(double t, double *z, void *context)
     return true;
 }
 
-void nh_kinks_see(nh_kinks *k, double t, const double *z)
+void nh_wall_steps_see(nh_wall_steps *k, double t, const double *z)
 {
     if (!k->change.count || !k->change.value(t, z, k->change.probe, k->change.context)) return;
     for (size_t i = 0; i < k->change.count; i++)
@@ -116,41 +116,41 @@ void nh_kinks_see(nh_kinks *k, double t, const double *z)
 
 /* The longest next step: to the wall that the ends of the step show, or half as long where the method evaluated the
  * rates behind a wall that they do not show. */
-static double way_to_wall(const nh_kinks *k, double at, double way)
+static double way_to_wall(const nh_wall_steps *k, double at, double way)
 {
     if (isnan(at)) return way / 2;
     double to = fabs(at - k->from);
     return to <= k->least ? k->least : to - fmax(nearer * to, k->least / 4);
 }
 
-nh_kink_verdict nh_kinks_judge(nh_kinks *k, const nh_flow_problem *p, double before, const double *old, double now,
-                               const double *z, nh_motion *motion)
+nh_wall_verdict nh_wall_steps_judge(nh_wall_steps *k, const nh_flow_problem *p, double before, const double *old,
+                                    double now, const double *z, nh_motion *motion)
 {
-    if (!k->change.count || now == before) return NH_KINK_NONE;
+    if (!k->change.count || now == before) return NH_WALL_NONE;
     size_t n = k->change.size;
     memcpy(k->ends, old, n * sizeof *old);
     memcpy(k->ends + n, z, n * sizeof *z);
     bool good = p->rate(before, old, k->ends + 2 * n, p->context) && p->rate(now, z, k->ends + 3 * n, p->context);
     segment s = {k, before, now};
-    double at = good ? nh_kinks_first(k, before, now, between, &s) : NAN, way = fabs(now - before);
+    double at = good ? nh_wall_steps_first(k, before, now, between, &s) : NAN, way = fabs(now - before);
     if (!good) { /* exactly on a wall, where rates may be undefined: end before it, or a little behind it */
         k->longest = way > 2 * k->least ? way / 2 : 1.5 * way;
         k->seen = INFINITY;
-        return NH_KINK_BACK;
+        return NH_WALL_BACK;
     }
     bool seen = fabs(k->seen - before) <= way;
     k->from = now;
     k->seen = INFINITY;
     if (isnan(at) && !seen) {
         k->longest = INFINITY;
-        return NH_KINK_NONE;
+        return NH_WALL_NONE;
     }
     if (way > 2 * k->least) {
         k->from = before;
         k->longest = way_to_wall(k, at, way);
-        return NH_KINK_BACK;
+        return NH_WALL_BACK;
     }
     memcpy(k->change.z, z, n * sizeof *z);
-    nh_kinks_go_over(k, now, motion);
-    return k->held ? NH_KINK_END : NH_KINK_CROSSED;
+    nh_wall_steps_go_over(k, now, motion);
+    return k->held ? NH_WALL_END : NH_WALL_CROSSED;
 }
