@@ -58,6 +58,8 @@ static const char *free_name(const nh_system *system)
     return names[i];
 }
 
+/* The hint: the same equations as constraints beside a coordinate that moves by itself, or how to write them where
+ * they are long. */
 static void write_instead(const nh_model *model, const nh_ex *velocity, nh_error *error)
 {
     enum { most = 500 }; /* a hint is no longer */

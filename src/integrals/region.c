@@ -24,6 +24,7 @@ typedef struct {
     double rho[most_directions], impulse[most_directions], speed, size;
 } passage;
 
+/* The mid-point of e's ball. */
 static bool value_of(nh_ball *ball, nh_ex e, double *value)
 {
     double radius;
@@ -90,6 +91,7 @@ static bool may_kick(const nh_model *model, const nh_walls *walls, nh_ex g)
     return model->m <= most_directions;
 }
 
+/* Walls at which I_s R^s_i or [rho^s] stays, from one distance to the next nearer one. */
 static void find_impulses(const nh_model *model, const nh_options *options, nh_terrain *t)
 {
     nh_ball *ball = nh_ball_create(model->dag, (long)options->bits);
@@ -192,6 +194,7 @@ typedef struct {
     bool below, above, jump;
 } seen;
 
+/* One crossing: below and above are 1, 0 or -1 (`holds`). */
 static void look(judge *j, const nh_crossing *c, seen *s)
 {
     int below = j->digits > 0 ? holds(j, c->point[0][0]) : 1, above = j->digits > 0 ? holds(j, c->point[1][0]) : 1;
@@ -203,6 +206,7 @@ static void look(judge *j, const nh_crossing *c, seen *s)
     s->jump |= below != 0 && above != 0 && (below == 1 || above == 1) && jumps(j, c);
 }
 
+/* A wall enters the region once, with what its crossings showed. */
 static void note(nh_region *r, nh_ex wall, const seen *s, bool touches)
 {
     if ((!s->below && !s->above && !s->jump) || r->count == NH_MOST_WALLS) return;
