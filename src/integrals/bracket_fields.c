@@ -67,6 +67,7 @@ static nh_ex along_zeta(const maker *x, size_t k, nh_ex f)
     return e;
 }
 
+/* V^s: its component along Y_k for each k. */
 static void along_position(const maker *x, size_t s, nh_ex *field)
 {
     const nh_model *o = x->o;
@@ -84,6 +85,7 @@ static void along_position(const maker *x, size_t s, nh_ex *field)
     }
 }
 
+/* V^i, summand by summand in the order of the header. */
 static void along_velocity(const maker *x, size_t i, nh_ex *field)
 {
     const nh_model *o = x->o;
@@ -102,6 +104,7 @@ static void along_velocity(const maker *x, size_t i, nh_ex *field)
     }
 }
 
+/* M^-1, column by column. */
 static void invert(maker *x)
 {
     nh_ex *unit = nh_alloc_array(x->n + 1, sizeof *unit), *column = nh_alloc_array(x->n + 1, sizeof *column);

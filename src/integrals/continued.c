@@ -1,3 +1,10 @@
+/* continued: other forms of a function, equal up to a constant or sign on a part, that go through a wall.
+ *
+ *     roots         sqrt(u^2 v)    ->  +-u sqrt(v)
+ *     arctangents   atan(u)        ->  -atan(1/u), moved by pi/2
+ *     turns         r + c atan(A/B) constant  ->  (A cos(r/c) + B sin(r/c))/S, S^2 = A^2 + B^2
+ *
+ * [docs/method.md, sec. 4, "Quadratures"] */
 #include "integrals/continued.h"
 
 #include <math.h>

@@ -55,6 +55,7 @@ static bool fix_signs(problem *p, nh_ex *e)
     return n <= most_signs && !has_velocities(p->o, *e) && !nh_depends(d, *e, p->o->system->t);
 }
 
+/* dQ_i/dq^j = dQ_j/dq^i for all pairs? */
 static bool is_closed(const problem *p)
 {
     nh_dag *d = p->o->dag;
@@ -118,6 +119,7 @@ static nh_ex integrate(problem *p, int step)
     return found ? nh_substitute(d, U, p->signs, p->value, p->call) : 0;
 }
 
+/* In the order of the file, or else in the opposite one: one of them may have simpler integrals. */
 static nh_ex potential(problem *p)
 {
     if (!is_closed(p)) return 0;

@@ -1,3 +1,7 @@
+/* projected_points: Newton's method for f^a(t, q, v) = 0 and, for quasi-velocities, rho(t, q, w) = v.
+ *
+ *     solve     in doubles, x := x - J f with the pseudo-inverse J of df/dx: the shortest step
+ *     refine    in balls with the same J, until all digits are right */
 #include "integrals/projected_points.h"
 
 #include <math.h>

@@ -1,3 +1,9 @@
+/* rate_form: equal forms, one step after the other, each only where signs at the probes allow it.
+ *
+ *     without_signs     sign(u) = |u|/u
+ *     in_half_angles    sin, cos of 2 a and 2 a + pi by those of a
+ *     fourth_roots      (N/D)^(k/4) = N^(k/4)/D^(k/4)
+ *     squares_out       sqrt(u^2 v) = |u| sqrt(v) */
 #include "integrals/rate_form.h"
 
 #include "exact/normal.h"
