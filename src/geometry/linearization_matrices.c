@@ -70,7 +70,7 @@ static void clear_column(arb_mat_t A, size_t row, size_t j, long bits)
     arb_clear(factor);
 }
 
-/* Two passes: first the columns with a pivot above 1e-3 of its row, then those with a small one. */
+/* Two passes: first the columns with a pivot above a thousandth of its row, then those with a small one. */
 size_t nh_linear_eliminate(arb_mat_t A, size_t columns, const size_t *order, size_t *pivot, long bits)
 {
     static const double small_pivot = 1e-3;
