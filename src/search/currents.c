@@ -1,3 +1,14 @@
+/* currents: what a null vector has to pass before it is a current.
+ *
+ *     nh_echelon_refine                 a short support, fitted again
+ *     nh_coefficients_assemble          many digits, exact coefficients, letters for numbers inside of terms
+ *     heldout_residual                  points that no fit has seen
+ *     nh_prove_claim                    proof, or digits in balls                  [docs/method.md, sec. 4]
+ *     keeps                             no certificate: left out, perhaps as almost conserved
+ *     nh_currents_hold, _continue       everywhere? else a piece, or its continuation [docs/method.md, sec. 5]
+ *     nh_described_fill                 symmetry, kind, words
+ *
+ * At the end all currents are ranked once more: doubles propose, balls decide. */
 #include "search/currents.h"
 
 #include <float.h>
@@ -111,6 +122,7 @@ void nh_currents_list(const nh_analysis *result, nh_ex *phi, bool *exact)
     }
 }
 
+/* kind and rank of all currents in their order, names, and relations of those that are dependent. */
 static void independence(nh_analysis *result, const nh_points *generic)
 {
     nh_ex *phi = nh_alloc_array(result->count + 1, sizeof *phi);

@@ -1,3 +1,11 @@
+/* staged_search: the rows of the search, in their order. [docs/stages.md]
+ *
+ *     part           budget `work`    what it does
+ *     FITTED         whole            linear problems, small ones first
+ *     INTEGRATED     what is left     one equation of motion after another
+ *     CONSTRUCTED    whole            what the count says is missing
+ *     REST           whole            primitives, series
+ *     ELSEWHERE      no limit         other velocities, levels of integrals, sides of kinks */
 #include "search/staged_search.h"
 
 #include <math.h>
@@ -149,6 +157,7 @@ static outcome outcome_of(const nh_analysis *result)
     return (outcome){result->count, result->pieces, result->independent, result->furthers};
 }
 
+/* One row, unless its part is done or the row is left out; `used` marks rows that changed something. */
 static void run_row(nh_stage_solver *solver, size_t i)
 {
     nh_stage stage;
