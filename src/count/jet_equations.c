@@ -1,5 +1,9 @@
-/* The equations of motion as power series: their values at a few velocities give the coefficients of the polynomials in
- * the velocities. */
+/* jet_equations: the equations of motion as power series, coefficients in the velocities by differentiation.
+ *
+ *     x->rho (m), M (n x n), A (n), coefficient (monomials x n)      expressions, registered at the jet point
+ *     fields           b = rho(w = 0), R_i = rho(e_i) - b: series along the coordinates
+ *     accelerations    M a = A solved for each monomial of w: n x monomials series
+ *     along            a motion: each round of q' = rho, M v' = A gives one term more */
 #include "count/jet_equations.h"
 
 #include <string.h>

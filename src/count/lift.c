@@ -1,3 +1,8 @@
+/* lift: linear equations for coefficients modulo primes. [docs/method.md, sec. 10, "Construction"]
+ *
+ *     choose_columns    at fixed residues: how does each c_j change with each parameter?  -> terms times monomials
+ *     fractions         prime after prime: the null vector of  rate(term) monomial(parameters)  at random points
+ *     gather            c_j = sum of fractions times monomials */
 #include "count/lift.h"
 
 #include <stdlib.h>

@@ -1,5 +1,11 @@
-/* Scalings from the values of the equations and their first derivatives at random points: a linear system for the
- * constants. */
+/* scaling: the constants kappa, mu, sigma, tau, e (and weights beta of functions) of a linear system.
+ * [docs/method.md, sec. 10, "Weights"]
+ *
+ *     columns     kappa (coordinates) | mu (coordinates) | sigma (n) | tau | e | beta (functions)
+ *     rows, at each random point and for each f = rho^s, M_ij, A_i, function:
+ *                 q_k f_q  ..         | f_q ..           | w_i f_w   |  - (weight of f) f
+ *
+ * Series of first order at a point give f and its derivatives. */
 #include "count/scaling.h"
 
 #include <string.h>

@@ -7,8 +7,8 @@
  *     wave_families  base times exp(-re q) {cos(im q), sin(im q)}: a stage like others
  *
  *     variable q                      bases
- *     t                               velocities, harmonics, linear; energy and growing ones where L changes; squares with
- *                                     forces; quadratic, cubic, frame, products, rational
+ *     t                               velocities, harmonics, linear; energy and growing ones where L changes; squares
+ *                                     with forces; quadratic, cubic, frame, products, rational
  *     a coordinate                    velocities, harmonics, linear; squares, around one angle, frame, products
  *     log of the invariant density    velocities, harmonics, linear
  *     the potential                   products, linear */
