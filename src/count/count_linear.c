@@ -33,6 +33,7 @@ typedef struct {
 
 /* ---- the equations ---- */
 
+/* Does e depend on parameters only? */
 static bool is_constant(const nh_jet_equations *x, nh_ex e)
 {
     bool is = !nh_depends(x->dag, e, x->model->system->t);
@@ -71,6 +72,7 @@ static bool read_equations(linear *l)
 
 /* ---- sums of frequencies ---- */
 
+/* sigma_i as balls; a generic linear function of the complex number makes it a real one, so that sums can be sorted. */
 static bool read_frequencies(linear *l)
 {
     enum { bits = 256, products = 500 };
@@ -132,6 +134,7 @@ static resonance find_resonance(linear *l, size_t half)
 
 /* ---- ranks ---- */
 
+/* The values of n x n expressions at the point. */
 static void set_matrix(const nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, const nh_ex *e,
                        nh_residue *series, nmod_mat_t out, bool *good)
 {
