@@ -234,6 +234,7 @@ static bool eval_node(nh_ball_series *s, nh_ex e, arb_poly_t out)
     }
 }
 
+/* The series of one node, up to the present length, in `out`; false where it does not exist. */
 static bool eval(nh_ball_series *s, nh_ex e, arb_poly_t out)
 {
     if (e >= s->nodes) return false;

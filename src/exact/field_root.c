@@ -114,6 +114,7 @@ static bool root_without(root_search *x, size_t last, nh_ex e, nh_ex *root)
     return good;
 }
 
+/* The root of e in the field with the first `roots` roots. */
 static bool root_with(root_search *x, size_t roots, nh_ex e, nh_ex *root)
 {
     nh_dag *d = x->dag;

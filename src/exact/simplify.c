@@ -265,6 +265,7 @@ static nh_ex apart(contest *c, nh_ex e)
     return nh_add(c->dag, simplify(c->shared, rest), simplify(c->shared, plain));
 }
 
+/* The best form of e, with those of its parts. */
 static nh_ex simplify(context *shared, nh_ex e)
 {
     uint32_t known;
