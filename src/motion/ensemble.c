@@ -1,3 +1,18 @@
+/* Many motions of one model at once (ensemble.h): batches that step together, then the members that were left out
+ * alone.
+ *
+ *               lane  0    1    2   ..  127            z, stage, next, error: kept x lanes; k: stages x kept x lanes
+ *      state 0      [ z    z    z        z  ]          one instruction of the program works on a whole row
+ *      state 1      [ z    z    z        z  ]          common t and h
+ *       ..
+ *
+ *      try_step      stages, new state, error of each lane, relative to what the tolerance allows
+ *      worst <= 1    taken; h by worst^(-1/8), between 1/5 and 5 times
+ *      otherwise     lanes far above the median error leave (they would delay the others), or h gets smaller
+ *      h too small   lanes without finite values leave
+ *
+ * A lane that leaves keeps values at which the program can be evaluated, and no longer counts. Lanes beyond the last
+ * member are copies of the first. */
 #include "motion/ensemble.h"
 
 #include <float.h>
@@ -55,6 +70,7 @@ typedef struct {
 
 /* ---- one batch ---- */
 
+/* k = f(t, z) of the kept states in all lanes. */
 static void rates(batch *b, double t, const double *z, double *k)
 {
     const nh_closed_subsystem *s = b->p->out->scene;
@@ -85,6 +101,7 @@ static double try_step(batch *b)
     return worst;
 }
 
+/* The member will be computed alone. */
 static void leave_out(batch *b, size_t lane)
 {
     b->alive[lane] = false;
@@ -149,6 +166,7 @@ static void watch_turns(batch *b)
     }
 }
 
+/* The wanted values of all lanes at this output. */
 static void store(batch *b, size_t output)
 {
     nh_ensemble *e = b->p->out;
@@ -217,6 +235,7 @@ static bool go_to(batch *b, double target, long *steps)
     return true;
 }
 
+/* Memory and initial states of batch `index`. */
 static void open_batch(batch *b, const plan *p, size_t index)
 {
     const nh_closed_subsystem *s = p->out->scene;
