@@ -1,18 +1,4 @@
-/* Many motions of one model at once (ensemble.h): batches that step together, then the members that were left out
- * alone.
- *
- *               lane  0    1    2   ..  127            z, stage, next, error: kept x lanes; k: stages x kept x lanes
- *      state 0      [ z    z    z        z  ]          one instruction of the program works on a whole row
- *      state 1      [ z    z    z        z  ]          common t and h
- *       ..
- *
- *      try_step      stages, new state, error of each lane, relative to what the tolerance allows
- *      worst <= 1    taken; h by worst^(-1/8), between 1/5 and 5 times
- *      otherwise     lanes far above the median error leave (they would delay the others), or h gets smaller
- *      h too small   lanes without finite values leave
- *
- * A lane that leaves keeps values at which the program can be evaluated, and no longer counts. Lanes beyond the last
- * member are copies of the first. */
+/* Batches that step together (the steps: ensemble.h), then the members that were left out, alone. */
 #include "motion/ensemble.h"
 
 #include <float.h>
