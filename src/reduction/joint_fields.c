@@ -44,6 +44,7 @@ static bool inside(const work *w, const nh_twist *xi)
     return true;
 }
 
+/* Is the field in the list? */
 static bool known(const nh_joint_fields *f, const nh_ex *component)
 {
     for (size_t i = 0; i < f->count; i++)
