@@ -92,6 +92,8 @@ static nh_letter *direction(nh_dag *d, nh_letters *l, nh_letter_kind kind, nh_ex
     return found;
 }
 
+/* The letter of a function of the position: a circle or an exponential for its angle, with a denominator for tan and
+ * the like. */
 static void take_function(const nh_jet_equations *x, nh_letters *l, nh_ex e)
 {
     nh_dag *d = x->dag;

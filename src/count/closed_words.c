@@ -203,6 +203,7 @@ static int by_price(const void *a, const void *b)
     return (x->index > y->index) - (x->index < y->index);
 }
 
+/* Words by price, then by the number of their factors. */
 static void sort(nh_closed_words *w)
 {
     size_t n = w->letters;

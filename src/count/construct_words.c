@@ -114,6 +114,7 @@ bool nh_construct_words_scarce(const nh_construct_attempt *a, size_t order, size
     return good;
 }
 
+/* The values of all words along all lines: words x width residues. */
 static bool word_values(nh_construct_attempt *a)
 {
     nh_counter *c = a->counter;

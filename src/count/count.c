@@ -295,6 +295,7 @@ static void take_every_coordinate(nh_counter *c, const nh_count_question *q, nh_
     if (c->equations->obstacle) out->obstacle = c->equations->obstacle;
 }
 
+/* The numbers of integrals of degree 1, 2, ..; a point that is unlucky is replaced by the next one. */
 static void degrees(nh_counter *c, nh_count *out)
 {
     size_t last = c->q->degree ? c->q->degree : NH_COUNT_HIGHEST_DEGREE, first = c->q->alone ? last : 1,

@@ -50,6 +50,8 @@ static bool is_symmetric(size_t n, const nh_ex *e)
     return is;
 }
 
+/* Are the equations M w' = A with constant symmetric M and K, A = K q and terms without q and w? Reads K = dA/dq, n x
+ * n. */
 static bool read_equations(linear *l)
 {
     enum { largest_entry = 1000 };
@@ -232,6 +234,8 @@ typedef struct {
     size_t all, known, generators, of; /* ranks of all; of the known ones, those of the degree `of` that generate all */
 } ranks;
 
+/* The ranks of the differentials of all energies with the known integrals, and of the known ones alone, at a random
+ * point. */
 static bool find_ranks(linear *l, ranks *out)
 {
     nh_counter *c = l->c;

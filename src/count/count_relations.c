@@ -94,6 +94,8 @@ static size_t eliminate(const nh_counter *c, nh_prime field, const nh_count_mono
     return relations;
 }
 
+/* The relations among monomials of the known integrals at one random point: columns are monomials, rows functionals
+ * of series. */
 static bool at_point(nh_counter *c, size_t degree, nh_arena *arena, size_t most, size_t *relations,
                      nh_count_relation *out)
 {

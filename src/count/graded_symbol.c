@@ -120,6 +120,8 @@ typedef struct {
     part part[NH_GRADED_PARTS];
 } symbol;
 
+/* Unknowns that occur in one equation belong together: the symbol falls apart into components, listed one after
+ * another. */
 static symbol find_components(nh_graded_system *s)
 {
     size_t unknowns = s->alphas * s->unknowns_of, connected = 0;
@@ -184,6 +186,7 @@ static void divide(symbol *x)
     }
 }
 
+/* The components of one part, for one thread. */
 static void eliminate_part(size_t index, void *context)
 {
     symbol *x = context;

@@ -232,6 +232,7 @@ static void register_again(nh_jet_equations *x)
     x->products = products(x);
 }
 
+/* Drops coordinates of the list; `rates`: their rates are kept beside. */
 static void without(nh_jet_equations *x, size_t count, const nh_ex *list, bool rates)
 {
     nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate),

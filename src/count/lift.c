@@ -255,6 +255,8 @@ static void gather(const nh_model *model, size_t terms, size_t columns, const co
     }
 }
 
+/* One expression from terms with rational coefficients, which residues modulo several primes give; false where they
+ * do not. */
 static bool lift(const nh_model *model, bool time, bool generic, size_t terms, const nh_ex *term, double most,
                  double *work, nh_ex *out)
 {

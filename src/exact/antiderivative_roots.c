@@ -399,6 +399,8 @@ typedef struct {
     nh_ex P;                     /* of the root in y; it still depends on x where it is no function of y */
 } half_argument;
 
+/* Q in y: cos u = (1 - y^2)/(1 + y^2), sin u = 2 y/(1 + y^2), or exp(u) = (1 + y)/(1 - y); P = Q factor^2, factor = 1
+ * + y^2 or 1 - y^2. False where P still contains x. */
 static bool half_argument_of(const builder *b, const letter *l, nh_ex Q, half_argument *h)
 {
     nh_dag *d = b->d;

@@ -69,6 +69,7 @@ bool nh_ball_eigenvalue_roots(nh_ball *ball, size_t n, const nh_ex *M, const nh_
 /* as a part of the largest: equal eigenvalues, of so many bits, are nearer */
 static const double equal = 1e-9;
 
+/* Eigenvalues nearer to each other than `equal` times the largest become their mean. */
 static void join_equal(size_t n, double *re, double *im)
 {
     double *mean = nh_alloc_array(2 * n + 1, sizeof *mean), largest = 0;

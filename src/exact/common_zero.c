@@ -193,6 +193,8 @@ static bool resultant_is_small(const list *l, const fmpz_mpoly_struct *a, const 
     return terms <= most;
 }
 
+/* Replaces the list by what does not contain the generator, and the resultants of the others with one of the lowest
+ * degree. */
 static void eliminate(list *l, size_t generator)
 {
     list out;
@@ -341,6 +343,7 @@ static bool coefficients(const list *l, const fmpz_mpoly_struct *p, size_t gener
            (most <= 2 || (most == 4 && fmpz_mpoly_is_zero(&c[1], l->ctx) && fmpz_mpoly_is_zero(&c[3], l->ctx)));
 }
 
+/* P(x) = 0 of degree one or two in x, or in x^2. */
 static bool solve(const list *l, const fmpz_mpoly_struct *p, size_t generator, nh_zero_root *out)
 {
     fmpz_mpoly_struct c[5];

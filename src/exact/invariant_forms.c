@@ -239,6 +239,7 @@ static bool write_factor(problem *p, const nh_quotient *value, written *memory, 
     return true;
 }
 
+/* z.S z of the entries v of S, primitive, terms with one coefficient together. */
 static bool write_form(problem *p, const combination *v, nh_ex *out)
 {
     nh_dag *d = p->q->dag;

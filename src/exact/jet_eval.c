@@ -205,6 +205,7 @@ static void circular(nh_jet_eval *v, nh_ex e, nh_residue *out)
     nh_free(sine);
 }
 
+/* exp(u), or with exp(-u) the hyperbolic functions. */
 static void exponential(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
@@ -267,6 +268,7 @@ static bool angle(nh_jet_eval *v, const nh_residue *y, const nh_residue *x, nh_r
     return !v->unlucky;
 }
 
+/* Logarithms, inverse functions, atan2, |u| and sign(u): a constant term of the point's, then E(f) = f'(u) E(u). */
 static void primitive(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;

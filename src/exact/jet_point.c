@@ -139,6 +139,7 @@ static bool note_inverse(nh_jet_point *x, nh_ex e)
     return nh_jet_point_register(x, 1, &rate);
 }
 
+/* Registers the kernel of a function call. */
 static bool note_function(nh_jet_point *x, nh_ex e)
 {
     switch (nh_function_of(x->dag, e)) {

@@ -265,6 +265,8 @@ static bool is_open_to(finder *x, const double *to)
     return open;
 }
 
+/* Keeps the change of sign of wall i at s: points at all depths on both sides, if the place is wanted and motions
+ * reach it. */
 static void keep(finder *x, size_t i, double s, bool touches)
 {
     uint64_t key = part_of(x, i, s);

@@ -155,6 +155,7 @@ static void reduce(table *t, double small)
     t->dimension = done;
 }
 
+/* The null vectors in terms instead of columns, each entry times the size of its term, reduced: terms x count. */
 static table make_table(const nh_model *model, const nh_points *points, const nh_ansatz *a, const nh_nullspace *n,
                         size_t count, size_t pivots, const nh_ex *pivot, double small)
 {
@@ -208,6 +209,8 @@ static void select_support(nh_candidate *c, double cut)
     for (size_t j = 0; j < c->count; j++) c->coefficient[j] /= unit;
 }
 
+/* Row k of the table as a candidate: all its terms, the simplest first, and those of them that make it up
+ * (select_support). */
 static nh_candidate candidate_of(nh_candidates *list, const nh_ansatz *a, const table *t, size_t k, double cut,
                                  double accepted)
 {

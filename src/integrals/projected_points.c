@@ -37,6 +37,8 @@ struct nh_projector {
 
 /* ---- one system of equations ---- */
 
+/* Programs for f and J = df/dx (equations x unknowns, column-major), and the expressions of J^T f with symbols for J.
+ */
 static void newton_create(nh_projector *p, newton *s, size_t unknowns, nh_ex *x, size_t equations, nh_ex *f)
 {
     nh_dag *d = p->o->dag;

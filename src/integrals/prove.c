@@ -41,6 +41,8 @@ static bool cancels(nh_ball *ball, size_t n, const nh_ex *term, nh_ex sum, nh_ex
     return true;
 }
 
+/* To how many digits the terms cancel: the fewest at some exact points in ball arithmetic, 0 where there are no
+ * points. */
 static void cancel(const nh_model *model, size_t n, const nh_ex *term, const nh_options *options, nh_proof *proof)
 {
     nh_ex sum = nh_int(model->dag, 0);

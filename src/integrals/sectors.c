@@ -222,6 +222,7 @@ static void merge_spectra(const nh_sectors *s, nh_nullspace *const *part, nh_nul
         both ? whole->spectrum[whole->dimension] / fmax(whole->spectrum[whole->dimension - 1], DBL_EPSILON) : INFINITY;
 }
 
+/* One null space from those of the sectors: ranks and dimensions add up, vectors are padded with zeros. */
 static nh_nullspace *merge(const nh_sectors *s, nh_nullspace *const *part)
 {
     nh_nullspace *whole = nh_alloc(sizeof *whole);

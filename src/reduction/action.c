@@ -104,6 +104,7 @@ static void on_constraints(const nh_action *g, nh_ex *e)
         }
 }
 
+/* Ranks of E, [E, D] at the sample points; exact where relations are known. From these free, Chaplygin, dim S. */
 static void find_ranks(nh_action *g, const nh_options *options)
 {
     static const double rounding = 1e-12;

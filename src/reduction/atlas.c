@@ -274,6 +274,7 @@ static bool connected(const nh_slice *first, const double *q)
     return good;
 }
 
+/* A new chart for the place: by the connection where there is one, else by master.c. */
 static bool build(nh_atlas *a, const double *q, const double *pivots, nh_error *error)
 {
     if (a->second && a->both && !connected(a->second->first->slice, q)) return build_both(a, q, pivots, error);

@@ -59,6 +59,7 @@ static nh_wrench momentum_behind(const work *w, const nh_joint *j)
     return nh_wrench_outwards(w->dag, &a, &w->behind[j->child]);
 }
 
+/* behind[b]: the momentum of body b and of all behind it, in its frame, from the tips to the ground. */
 static void momenta(work *w)
 {
     const nh_chain *c = w->chain;
@@ -367,6 +368,7 @@ static void space_moves(work *w, size_t joint)
     }
 }
 
+/* The four rules for one joint. */
 static void joint_symmetries(work *w, size_t joint)
 {
     const nh_chain *c = w->chain;

@@ -47,6 +47,7 @@ static bool connection(nh_chaplygin *c, nh_error *error)
                            "the orbits of the group meet the constraint distribution: there is no connection");
 }
 
+/* B^a_ij = d_i A^a_j - d_j A^a_i - C_bc^a A^b_i A^c_j, antisymmetric in i and j. */
 static void curvature(nh_chaplygin *c)
 {
     nh_dag *d = c->dag;

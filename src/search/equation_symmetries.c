@@ -169,6 +169,7 @@ static nh_equation_symmetry field_of(const search *x, const nh_ex *c, bool dynam
 
 /* ---- point symmetries ---- */
 
+/* Point symmetries, with words of the highest degree that leaves few enough columns. */
 static bool find_points(search *x)
 {
     nh_equation_symmetries *out = x->out;

@@ -28,6 +28,7 @@ typedef struct {
     nh_ex side[most_sides], sign[most_sides]; /* symbols, and what they are */
 } pieces;
 
+/* u| and sign(u) as u side and side, with a symbol for the sign: the same for the same u. */
 static void read_pieces(pieces *p, nh_ex f)
 {
     nh_dag *d = p->curve->d;

@@ -257,6 +257,7 @@ static void add_members(const space *x, nh_symmetry_space *out, size_t n, const 
     }
 }
 
+/* The subspaces from the smallest on, then all products: each adds to the basis what it has beyond those before it. */
 static void make_basis(const space *x, nh_symmetry_space *out)
 {
     static const bool kinds[NH_SPACES][NH_SPACES] = {[NH_SPACE_BEST] = {true, true, true, true},
