@@ -71,6 +71,7 @@ static void curvature(nh_chaplygin *c)
             }
 }
 
+/* J_aj = (Kf_e H)_aj, d x n, and Khat_ij = K_ij - K_ia A^a_j - A^a_i J_aj. */
 static void metric(nh_chaplygin *c)
 {
     const nh_slice *s = c->slice;

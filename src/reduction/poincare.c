@@ -294,6 +294,8 @@ typedef struct {
     double *zeta, *bracket, *pa, *pb, *pc, *beta, *phi, *terms, *unit; /* d each */
 } scratch;
 
+/* mu'(chi) = mu([zeta, chi]) for each chi, with zeta = v - A x': in one stage, by stages, and the bracket itself by
+ * stages. */
 static void vertical(const place *p, const nh_ideals *c, const scratch *t, nh_poincare *out)
 {
     const nh_algebra *g = &p->s->action->algebra;
@@ -320,6 +322,7 @@ static void vertical(const place *p, const nh_ideals *c, const scratch *t, nh_po
     }
 }
 
+/* pi_i' against dl/dx^i - mu_a B^a_ji x'^j + mu([A_i, v]) for each i, in one stage and by stages. */
 static void horizontal(const place *p, const nh_ideals *c, const scratch *t, nh_poincare *out)
 {
     const nh_algebra *g = &p->s->action->algebra;

@@ -312,6 +312,7 @@ static void general_conditions(nh_second *s)
     nh_free(value);
 }
 
+/* The largest relative residuals of (i), (ii) and (ii') over the sample points. */
 static void conditions(nh_second *s)
 {
     if (!s->first->plain) {

@@ -303,6 +303,7 @@ static bool metric_regular(const nh_kinetic *k, const double *p, const double *q
     return good || !told;
 }
 
+/* Are E on these rows and the data of the system regular on the slice y, beside the first few sample points? */
 static bool regular_at(const nh_action *g, const size_t *along, const double *y)
 {
     enum { trials = 8 };
