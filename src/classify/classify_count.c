@@ -1,4 +1,6 @@
-/* The number of integrals at one value of the parameters, counted as for one system, at one point modulo one prime. */
+/* The number of integrals at one value of the parameters, counted as for one system (count.h), at one point modulo
+ * one prime: N of degree d is what the orders r = 1, 2, .. settle at, as an upper bound. The value is random (almost
+ * all), a root of a polynomial modulo the prime, or infinite; a prime without such a root is passed over. */
 #include <string.h>
 
 #include "base/progress.h"

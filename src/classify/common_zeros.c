@@ -1,5 +1,13 @@
-/* Common zeros modulo a prime, by FLINT's polynomials in two variables; resultants and sections are interpolated from
- * their values. */
+/* Common zeros modulo a prime (common_zeros.h), by FLINT's polynomials in two variables.
+ *
+ *      P_1, P_2, ..                            one from each point, times Q
+ *      G = gcd                                 curves (values of one parameter), squarefree
+ *      P_i/G                                   what is left has isolated zeros only:
+ *      R_k(mu) = Res_lambda(sum_i r_i P_i/G, sum_i s_i P_i/G)     for random r, s, interpolated from values of mu
+ *      E(mu) = gcd of the R_k                  the mu of isolated zeros
+ *
+ *      sections at several nu: monic polynomials; each coefficient is a rational function of nu, read off by the
+ *      extended Euclidean algorithm for its values */
 #include "classify/common_zeros.h"
 
 #include <flint/nmod.h>
@@ -15,6 +23,7 @@ enum { combinations = 3 };
 
 /* ---- in and out ---- */
 
+/* From the array of coefficients to FLINT's form. */
 static void take(nmod_mpoly_t out, const nh_residue_polynomial *x, const nmod_mpoly_ctx_t ctx)
 {
     nmod_mpoly_zero(out, ctx);
@@ -25,6 +34,7 @@ static void take(nmod_mpoly_t out, const nh_residue_polynomial *x, const nmod_mp
         }
 }
 
+/* Back to an array, on the heap. */
 static nh_residue_polynomial written(const nmod_mpoly_t p, const nmod_mpoly_ctx_t ctx)
 {
     nh_residue_polynomial out = {.degree = {0}};
@@ -131,6 +141,7 @@ static bool resultant(const nh_residue_polynomial *x, const nh_residue_polynomia
     return good;
 }
 
+/* A random linear combination of the polynomials. */
 static nh_residue_polynomial combined(nh_prime f, size_t count, nmod_mpoly_t *p, uint64_t *random,
                                       const nmod_mpoly_ctx_t ctx)
 {
@@ -227,6 +238,7 @@ void nh_common_zeros_clear(nh_common_zeros *zeros)
 
 /* ---- lists ---- */
 
+/* Have both the same degrees, as sections of one surface have? */
 static bool are_alike(const nh_common_zeros *a, const nh_common_zeros *b)
 {
     bool alike = a->nullity == b->nullity;

@@ -1,4 +1,13 @@
-/* The equations of motion as series at a point, at values of the parameters. */
+/* The equations of motion as series at a point, at values of the parameters (parametric.h).
+ *
+ *      look          how the equations depend on the parameters, and what they are divided by
+ *      choose        a point modulo a prime: coordinates, other parameters, functions
+ *      value         at one lambda: coordinates and Q Gamma as series (ring up to the order)
+ *      interpolate   value after value of lambda: Q Gamma = sum_j lambda^j G_j (parametric_interpolate.c)
+ *      at            the series of Q Gamma at any lambda, as a problem for the count
+ *
+ * Q = (denominator of M)^n det M times the other denominators: with it no coefficient divides by a function of
+ * lambda. */
 #include <flint/nmod_mat.h>
 #include <string.h>
 
@@ -20,6 +29,7 @@ static bool depends(const nh_parametric *f, nh_ex e)
     return any;
 }
 
+/* The place of a denominator in the list; it is added where it is not there. */
 static size_t factor_of(nh_parametric *f, nh_ex base)
 {
     for (size_t i = 0; i < f->factors; i++)
@@ -66,6 +76,7 @@ bool nh_parametric_rational(nh_dag *d, nh_ex e, nh_ex symbol)
     return rational;
 }
 
+/* Does a parameter occur inside a function or root, where the equations are not rational in it? */
 static bool inside_functions(const nh_parametric *f)
 {
     const nh_jet_point *p = f->counter.equations->point;
@@ -114,6 +125,7 @@ static bool plain(const nh_parametric *f)
            (f->shape && f->kept <= f->counter.equations->n);
 }
 
+/* Obstacles; and of each denominator its power in M, and what A and rho have beyond that. */
 static void look(nh_parametric *f)
 {
     const nh_jet_equations *x = f->counter.equations;

@@ -25,6 +25,7 @@ static void interpolate(nh_prime p, size_t count, const nh_residue *place, size_
                                     nh_residue_negative(p, place[step]));
 }
 
+/* The highest power that has a coefficient. */
 static size_t highest(size_t count, size_t length, const nh_residue *value)
 {
     while (count > 1) {

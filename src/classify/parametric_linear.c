@@ -118,6 +118,7 @@ static void add_quadratic(const nh_jet_ring *r, size_t n, size_t l, const nh_res
         }
 }
 
+/* The equations of a density u as (fields + 1) rows: G_i(u) + (div G)_i u, and the divergence without velocities. */
 static bool density(nh_parametric *f, nh_parametric_series *s, nh_residue *out)
 {
     const nh_jet_equations *x = f->counter.equations;

@@ -12,6 +12,7 @@ typedef struct {
     uint8_t *exponent;
 } monomials;
 
+/* The exponents of all monomials in n velocities up to the degree, of one parity or of both. */
 static monomials list(size_t n, size_t degree, nh_parity parity)
 {
     monomials m = {.n = n};

@@ -108,6 +108,7 @@ static bool push(const sparse *s, sparse_row *r)
     return any;
 }
 
+/* The entries in rows, added up where they share a place, and the lists of the columns. */
 static void open_sparse(sparse *s, const nh_sparse_pencil *p, nh_prime f)
 {
     nh_sparse_entry *e;
@@ -194,6 +195,7 @@ static void subtract(sparse *s, uint32_t index, const sparse_row *p, uint32_t co
     *w = old;
 }
 
+/* Eliminates the column from all other rows by the pivot at (index, column); row and column leave the system. */
 static void eliminate(sparse *s, uint32_t index, uint32_t column)
 {
     sparse_row p = s->row[index];

@@ -1,5 +1,14 @@
-/* The staircase algorithm modulo a prime, with FLINT's echelon forms and characteristic polynomial; determinants of
- * what it leaves of two parameters. */
+/* The staircase algorithm modulo a prime (staircase.h, [VanDooren1979]), with FLINT's echelon forms and
+ * characteristic polynomial; determinants of what it leaves of two parameters.
+ *
+ *      [  E  |  A  ]   row echelon     [ E' | A' ]     moving rows: they have a part in E
+ *                      ----------->    [ 0  | C  ]     constant equations C y = 0, substituted in E' and A'
+ *
+ *      until no constant row is left; then the transposes, for columns; until neither changes anything:
+ *      E square and invertible, chi(lambda) = det(lambda + E^-1 A)
+ *
+ * Each step leaves the rank of A(lambda) less the number of pivots as it was, for every lambda. First those equations
+ * go that contain no parameter from the start: they are most equations. */
 #include "classify/staircase.h"
 
 #include <flint/nmod_mat.h>
@@ -42,11 +51,13 @@ static void replace(matrices *x, matrices by)
 
 /* ---- the pencil as matrices ---- */
 
+/* m_ij += value. */
 static void add_to(nmod_mat_t m, size_t row, size_t column, nh_residue value)
 {
     nmod_mat_entry(m, row, column) = n_addmod(nmod_mat_entry(m, row, column), value, m->mod.n);
 }
 
+/* One dense matrix for each power lambda^i mu^j, at i + (degree + 1) j. */
 static matrices matrices_of(const nh_sparse_pencil *p, nh_prime f)
 {
     matrices x = zeros((p->degree + 1) * (p->second + 1), (slong)p->rows, (slong)p->columns, f.p);
@@ -116,6 +127,7 @@ static void copy_rows(nmod_mat_t to, const nmod_mat_t from, slong first, slong c
             nmod_mat_entry(to, i, j) = nmod_mat_entry(from, first + i, column + j);
 }
 
+/* Does the row have no part in the matrices of any power but the first? */
 static bool is_constant(const matrices *x, slong row)
 {
     bool constant = true;
@@ -183,6 +195,7 @@ static void transpose(matrices *x)
     replace(x, t);
 }
 
+/* Rows, columns, rows .. until nothing changes, the products are used up, or time is. */
 static void reduce(matrices *x, double *products)
 {
     constant_rows(x);

@@ -1,4 +1,13 @@
-/* Weights by iterated brackets of power series at one point; then privileged coordinates, and the fields in them. */
+/* adapted_frame: weights by iterated brackets of power series at one point; then privileged coordinates, and the
+ * fields in them. [docs/method.md, sec. 10, "Weights"]
+ *
+ *     grow        X_i (weight 1), [X_i, X_j] (2), [X_i, [X_j, X_k]] (3), ..  while directions at the point are new
+ *
+ *         q - q0 = to y:   columns of `to` are the directions       | weight 1 | 2 | 3 .. | across the leaf |
+ *                                                                   |<------- kept ------>|
+ *     correct     z_j = y_j + h_j(y) of weight 3 and more: Y^alpha(z_j)(0) = 0 for all alpha of weight below w_j
+ *     bend        y_l = phi_l(z) across: X_i(phi_l) = X_i^l, solved weight by weight
+ *     series      q and the fields as series in z, in a ring with these weights */
 #include "count/adapted_frame.h"
 
 #include <flint/nmod_mat.h>
@@ -57,6 +66,7 @@ static bool is_new(frame_list *l, const nh_residue *value)
     return fresh;
 }
 
+/* Keeps the field with this weight, if its value at the point is a new direction. */
 static bool add_direction(frame_list *l, const nh_residue *X, size_t weight)
 {
     nh_residue *at = nh_alloc_array(l->all + 1, sizeof *at);
@@ -91,6 +101,7 @@ static bool grow(frame_list *l, size_t fields, const nh_residue *X)
     return from == l->count || l->count == l->wanted;
 }
 
+/* Room for `wanted` directions, each a field of `all` series. */
 static void frame_list_init(frame_list *l, const nh_jet_ring *r, size_t all, size_t wanted)
 {
     *l = (frame_list){.r = r, .all = all, .wanted = wanted};
@@ -129,6 +140,7 @@ static void linear_coordinates(const nh_adapted_frame *x, const nh_jet_ring *r, 
     }
 }
 
+/* The series z_k. */
 static void variable(const nh_jet_ring *r, size_t k, nh_residue *out)
 {
     nh_jet_constant(r, 0, out);
@@ -144,6 +156,7 @@ static void along_frame(const nh_adapted_frame *x, const nh_jet_ring *r, const n
             nh_jet_add_multiple(r, out + i * r->size, x->from[i * x->all + k], X + k * r->size);
 }
 
+/* `to` from the directions at the point, and its inverse. */
 static void set_matrices(nh_adapted_frame *x, const frame_list *l)
 {
     nmod_mat_t to, from;
@@ -162,6 +175,7 @@ static void set_matrices(nh_adapted_frame *x, const frame_list *l)
 
 /* ---- corrections ---- */
 
+/* f := Y(f) = Y^j d_j f. */
 static void along_field(const nh_jet_ring *r, size_t all, const nh_residue *Y, nh_residue *f)
 {
     nh_residue *slope = nh_alloc_array(2 * r->size, sizeof *slope), *sum = slope + r->size;
@@ -186,6 +200,7 @@ static nh_residue iterated(const nh_jet_ring *r, size_t all, size_t kept, const 
     return value;
 }
 
+/* out := y^alpha over the kept coordinates. */
 static void monomial(const nh_jet_ring *r, size_t kept, const uint8_t *alpha, const nh_residue *y, nh_residue *out)
 {
     nh_residue *work = nh_alloc_array(r->size, sizeof *work);
@@ -233,6 +248,7 @@ static void correct_degree(nh_adapted_frame *x, const nh_jet_ring *r, const nh_r
     nh_free(alpha);
 }
 
+/* Coordinates of weight 3 and more, degree after degree; those of lower weight need none. */
 static bool correct(nh_adapted_frame *x, const nh_jet_ring *r)
 {
     size_t block = x->all * r->size, fields = x->equations->fields;

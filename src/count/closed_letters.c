@@ -1,5 +1,11 @@
-/* The letters of a system: bases of powers with their exponents, angles and exponents of the Lagrangian, the equations
- * of motion and the determinant of the inertia. */
+/* closed_letters: bases of powers with their exponents, angles and exponents of the Lagrangian, the equations of
+ * motion and the determinant of the inertia.
+ *
+ *     take_expression    Lbar, rho, M, A in canonical form: functions and powers with their lowest exponents
+ *     take_determinant   factors of det M, with half powers
+ *     take_roots         roots of the inertia's diagonal
+ *     take_rates         waves and exponentials along cyclic coordinates and t (construct_rates.h)
+ *     take_potential     highest powers: up to these a power costs as much as a coordinate */
 #include "count/closed_words.h"
 
 #include <math.h>
@@ -17,6 +23,7 @@ enum { largest_form = 2000, largest_inertia = 4, least_down = 1 };
 
 /* ---- the list ---- */
 
+/* The letter of this kind and base; a new one has whole powers only. */
 static nh_letter *letter_of(nh_closed_letters *l, nh_letter_kind kind, nh_ex base)
 {
     for (size_t i = 0; i < l->count; i++)
@@ -85,6 +92,8 @@ static nh_letter *direction(nh_dag *d, nh_closed_letters *l, nh_letter_kind kind
     return found;
 }
 
+/* The letter of a function of the position: a circle or an exponential for its angle, with a denominator for tan and
+ * the like. */
 static void take_function(const nh_jet_equations *x, nh_closed_letters *l, nh_ex e)
 {
     nh_dag *d = x->dag;

@@ -185,6 +185,8 @@ static void along_circle(list *l, nh_ex base, nh_ex angle)
     }
 }
 
+/* Primitives that letters suggest: logarithms of linear bases, integrals along coordinates and circles; those that
+ * are not elementary come last. */
 static void of_letters(list *l, const nh_closed_letters *letters)
 {
     for (size_t i = 0; i < letters->count; i++) {

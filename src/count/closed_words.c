@@ -1,4 +1,9 @@
-/* Words over a system's letters, cheapest first, and their series. */
+/* closed_words: words over a system's letters, cheapest first, and their series.
+ *
+ *     letter i     powers 1, x, x^2, 1/x, ..  with prices, by rising price
+ *     word k       choice[k * letters + i]: which power of letter i;  price: the sum
+ *     next_choice  counts like a counter with carry through all choices up to the price
+ *     reduce       words that are combinations of cheaper ones, by values at random points */
 #include "count/closed_words.h"
 
 #include <math.h>
@@ -113,6 +118,7 @@ static void put_circle(nh_closed_words *w, nh_closed_letter *l, const nh_letter 
         }
 }
 
+/* The powers of one letter; a letter with no power but 1 is left out. */
 static void put_letter(nh_closed_words *w, const nh_letter *a)
 {
     nh_grow(&w->letter, &w->capacity, w->letters + 1, sizeof *w->letter);
@@ -196,6 +202,7 @@ static int by_price(const void *a, const void *b)
     return (x->index > y->index) - (x->index < y->index);
 }
 
+/* Words by price, then by the number of their factors. */
 static void sort(nh_closed_words *w)
 {
     size_t n = w->letters;

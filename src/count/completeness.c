@@ -91,6 +91,7 @@ size_t nh_completeness_degree(const nh_model *model, bool time)
     return coordinates <= two ? highest : coordinates <= few ? high : low;
 }
 
+/* One kind of coefficients: the question of the count, and what its rows say. */
 static void count_kind(const nh_model *model, const nh_completeness_question *q, int kind, nh_completeness *c)
 {
     size_t chosen = nh_completeness_degree(model, kind == NH_COMPLETE_IN_TIME);

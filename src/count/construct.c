@@ -1,4 +1,17 @@
-/* Solutions as long series, recognised in the span of words. */
+/* construct: solutions as long series, recognised in the span of words. [docs/method.md, sec. 10, "Construction"]
+ *
+ *     values under random functionals (rows):
+ *
+ *                      words        c_alpha of solution 1 .. N, alpha by alpha
+ *                    +-----------+------------------------------------------+
+ *       kept rows    |  echelon  |  coefficients of c_alpha in the words    |      nh_construct_words_choose
+ *                    +-----------+------------------------------------------+
+ *       other rows   |     0     |  remainders of c_alpha                   |
+ *                    +-----------+------------------------------------------+
+ *
+ *     recognised     combinations x of solutions whose remainders all vanish: a left null space
+ *     represent      reduced echelon form, complex terms first, in four orders of the terms; the shortest is taken
+ *     news           rows whose differentials (or values of products) enlarge what is known */
 #include "count/construct_internal.h"
 
 #include <math.h>
@@ -261,6 +274,7 @@ static nh_construct_outcome solve_and_recognise(nh_construction *out, nh_constru
     return nh_construct_recognise(out, a, question);
 }
 
+/* One attempt at the regular point of the counter. */
 static nh_construct_outcome attempt_at(nh_construction *out, nh_counter *c, nh_closed_words *words,
                                        const nh_velocity_frame *frame, const nh_construct_question *question)
 {

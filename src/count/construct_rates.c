@@ -1,4 +1,12 @@
-/* Eigenvalues of the derivative along a cyclic coordinate on the space of solutions. */
+/* construct_rates: eigenvalues of the derivative along a cyclic coordinate on the space of solutions.
+ * [docs/method.md, sec. 10, "Construction"]
+ *
+ *     rates_at      short series of all solutions; for each cyclic y the matrix A of d/dy (solution_matrix.h)
+ *                   A = 0: y is idle;   minimal polynomial without square factors: y is pure;   factors: x - lambda,
+ *                   x^2 + omega^2 of the characteristic polynomial, modulo the prime
+ *     ask           the same at the parameters' values and with random residues for them
+ *     name          omega^2 = short fraction times a monomial in the atoms, at both: a formula
+ *     put_number    else a short fraction, or the root of one */
 #include "count/construct_rates.h"
 
 #include <flint/nmod_mat.h>
@@ -25,6 +33,7 @@ typedef struct {
     nh_residue square[most_squares], lambda[most_squares]; /* lambda: 0 where it is no residue */
 } squares;
 
+/* Once for each coordinate and eigenvalue. */
 static void put_square(squares *out, nh_ex coordinate, nh_residue square, nh_residue lambda)
 {
     for (size_t i = 0; i < out->count; i++)
@@ -172,6 +181,7 @@ typedef struct {
     int power[most_atoms]; /* of the monomial at hand */
 } naming;
 
+/* The short fraction that a residue stands for; false: it is none. */
 static bool fraction(nh_residue value, int64_t longest, nh_prime field, nh_num *out)
 {
     int64_t top, bottom;
@@ -201,6 +211,7 @@ static nh_num root_of(nh_num square, int64_t *radicand)
     return nh_num_ratio(out, square.q);
 }
 
+/* Once for each coordinate and rate. */
 static void put(nh_construct_rates *out, nh_construct_rate r)
 {
     for (size_t i = 0; i < out->count; i++) {

@@ -1,5 +1,11 @@
-/* Construction by weights: short series give the weights lambda of the solutions under a scaling; those of one weight
- * are continued alone, and recognised in words whose weights fit. */
+/* construct_weights: short series give the weights lambda of the solutions under a scaling; those of one weight are
+ * continued alone, and recognised in words whose weights fit. [docs/method.md, sec. 10, "Weights"]
+ *
+ *     solve           all N solutions, up to a short order
+ *     matrix_of       S on them; its characteristic polynomial has the factors x - lambda
+ *     eigenspace      the solutions with S(Phi) = lambda Phi
+ *     recognise       words of the weights lambda - sigma . alpha; the solutions continued to the order that tells
+ *                     these words apart; nh_construct_recognise */
 #include "count/construct_internal.h"
 
 #include <flint/nmod.h>
@@ -54,6 +60,7 @@ static nh_residue *sums(const weighing *w, const nh_graded_count *g, const nh_re
     return sum;
 }
 
+/* The matrix of S on the solutions of one parity; false: the series are too short. */
 static bool matrix_of(const weighing *w, const nh_graded_count *g, nmod_mat_t A)
 {
     size_t N = g->total[g->order], m = w->counter->frame->all;

@@ -1,5 +1,8 @@
-/* Words under random functionals: a basis of their span and its echelon form, and orders at which there are enough
- * coefficients to tell them apart. */
+/* construct_words: words under random functionals: a basis of their span and its echelon form, and orders at which
+ * there are enough coefficients to tell them apart.
+ *
+ * For every set of coordinates there must be fewer words of it than coefficients up to the order: of k variables with
+ * weights w_1 .. w_k these are the monomials of weight r at most; under scalings so many variables less. */
 #include "count/construct_internal.h"
 
 #include <stdlib.h>
@@ -111,6 +114,7 @@ bool nh_construct_words_scarce(const nh_construct_attempt *a, size_t order, size
     return good;
 }
 
+/* The values of all words along all lines: words x width residues. */
 static bool word_values(nh_construct_attempt *a)
 {
     nh_counter *c = a->counter;

@@ -1,5 +1,14 @@
-/* The count: points modulo primes, weights, and series of growing order until the number of integrals reaches the
- * number of known ones or no longer changes. */
+/* count: points modulo primes, weights, and series of growing order until the number of integrals reaches the number
+ * of known ones or no longer changes. [docs/method.md, sec. 10]
+ *
+ *     nh_counter_open      equations, known integrals, coordinates that can be left out
+ *     first_point          a regular point modulo a prime: adapted frame, degrees of the known integrals
+ *     count_degree         for degree 1, 2, ..
+ *        count_at             at order r:  N(r) (graded_solver.h),  products of known ones,  ranks of differentials
+ *        is_last              known == N: complete;  N stays for step + 1 orders: settled;  else a larger r
+ *     nh_count_linear      higher degrees by frequencies, where the equations are linear
+ *
+ *     outcome       COUNTED; UNLUCKY: another point; TOO_MUCH: limit of work; EXTENDED: again in all coordinates */
 #include "count/count_internal.h"
 
 #include <math.h>
@@ -132,6 +141,7 @@ static bool shows_too_many(const nh_counter *c, const nh_count_row *row)
     return named && row->known_rank > c->q->independent;
 }
 
+/* What N at the orders 0 .. r says: bound, complete, settled. */
 static void read_totals(const nh_counter *c, const size_t *total, size_t from, nh_count_row *out)
 {
     size_t order = out->order, same = order;
@@ -260,6 +270,7 @@ static size_t first_point(nh_counter *c, nh_count *out)
     return attempt;
 }
 
+/* Step, weights and leaf of the frame, and the coordinates that were left out. */
 static void read_frame(const nh_counter *c, nh_count *out)
 {
     if (!c->frame) return;
@@ -284,6 +295,7 @@ static void take_every_coordinate(nh_counter *c, const nh_count_question *q, nh_
     if (c->equations->obstacle) out->obstacle = c->equations->obstacle;
 }
 
+/* The numbers of integrals of degree 1, 2, ..; a point that is unlucky is replaced by the next one. */
 static void degrees(nh_counter *c, nh_count *out)
 {
     size_t last = c->q->degree ? c->q->degree : NH_COUNT_HIGHEST_DEGREE, first = c->q->alone ? last : 1,

@@ -68,6 +68,7 @@ static bool has_functions_of_velocities(const nh_jet_equations *x, nh_ex e)
     return found;
 }
 
+/* Known integral `from` takes place `to`. */
 static void move_known(nh_counter *c, size_t to, size_t from)
 {
     size_t n = c->equations->n;

@@ -33,6 +33,7 @@ typedef struct {
 
 /* ---- the equations ---- */
 
+/* Does e depend on parameters only? */
 static bool is_constant(const nh_jet_equations *x, nh_ex e)
 {
     bool is = !nh_depends(x->dag, e, x->model->system->t);
@@ -49,6 +50,8 @@ static bool is_symmetric(size_t n, const nh_ex *e)
     return is;
 }
 
+/* Are the equations M w' = A with constant symmetric M and K, A = K q and terms without q and w? Reads K = dA/dq, n x
+ * n. */
 static bool read_equations(linear *l)
 {
     enum { largest_entry = 1000 };
@@ -71,6 +74,7 @@ static bool read_equations(linear *l)
 
 /* ---- sums of frequencies ---- */
 
+/* sigma_i as balls; a generic linear function of the complex number makes it a real one, so that sums can be sorted. */
 static bool read_frequencies(linear *l)
 {
     enum { bits = 256, products = 500 };
@@ -132,6 +136,7 @@ static resonance find_resonance(linear *l, size_t half)
 
 /* ---- ranks ---- */
 
+/* The values of n x n expressions at the point. */
 static void set_matrix(const nh_jet_equations *x, nh_jet_eval *v, const nh_jet_ring *ring, const nh_ex *e,
                        nh_residue *series, nmod_mat_t out, bool *good)
 {
@@ -229,6 +234,8 @@ typedef struct {
     size_t all, known, generators, of; /* ranks of all; of the known ones, those of the degree `of` that generate all */
 } ranks;
 
+/* The ranks of the differentials of all energies with the known integrals, and of the known ones alone, at a random
+ * point. */
 static bool find_ranks(linear *l, ranks *out)
 {
     nh_counter *c = l->c;

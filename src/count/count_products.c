@@ -1,5 +1,11 @@
-/* Products of known integrals as vectors modulo the prime: the values of random linear functionals, which are the same
- * for products and for solutions of the count. */
+/* count_products: products of known integrals as vectors modulo the prime: values of random linear functionals, which
+ * are the same for products and for solutions of the count.
+ *
+ *     functional j      velocities w_j, a curve z_k = v_k s^(weight_k), and weights of the powers of s
+ *     of a product      the integrals as series in s along the curve, multiplied
+ *     of a solution     sum of c_alpha w^alpha, with the coefficients of z^e times v^e, sorted by weight of e
+ *
+ * The rank of the values is that of the products, at most N: a lower bound for the number of integrals. */
 #include <string.h>
 
 #include "base/progress.h"
@@ -67,6 +73,7 @@ void nh_count_monomials_clear(nh_count_monomials *p)
 
 /* ---- functionals ---- */
 
+/* v^exponent. */
 static nh_residue power_of(nh_prime field, const nh_residue *v, const uint8_t *exponent, size_t n)
 {
     nh_residue r = 1;

@@ -1,5 +1,9 @@
-/* Polynomial relations among integrals modulo the prime: a product that is a combination of products before it is the
- * leading product of a relation. */
+/* count_relations: a product that is a combination of products before it is the leading product of a relation.
+ *
+ *     row = [ values under the functionals | which products it combines ]
+ *     echelon form row by row: where the left part becomes 0 the right part is a relation
+ *
+ * Products that an earlier leading product divides follow from that relation, and are left out. */
 #include <stdlib.h>
 #include <math.h>
 #include <string.h>
@@ -90,6 +94,8 @@ static size_t eliminate(const nh_counter *c, nh_prime field, const nh_count_mono
     return relations;
 }
 
+/* The relations among monomials of the known integrals at one random point: columns are monomials, rows functionals
+ * of series. */
 static bool at_point(nh_counter *c, size_t degree, nh_arena *arena, size_t most, size_t *relations,
                      nh_count_relation *out)
 {

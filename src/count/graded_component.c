@@ -1,3 +1,7 @@
+/* graded_component: Markowitz' order, simplified: the shortest row, and in it the rarest column.
+ *
+ * Rows are cells sorted by column.  Remaining rows stand in lists by length; a column remembers the rows that have or
+ * had it.  The known part of a pivot row is divided by the pivot only at the end (`inverse`). */
 #include "count/graded_solver_internal.h"
 
 #include <stdlib.h>
@@ -47,6 +51,7 @@ void nh_graded_component_clear(nh_graded_component *c, size_t rows, size_t colum
 
 /* ---- the shortest remaining row ---- */
 
+/* Row i into the list of its length; empty rows into none. */
 static void list_row(nh_graded_component *c, size_t i)
 {
     nh_graded_lengths *l = &c->rest;

@@ -1,4 +1,12 @@
-/* The equations of one weight: a known part, in terms of the parameters, and the entries of the symbol. */
+/* graded_equations: the equations of one weight: a known part, in terms of the parameters, and the entries of the
+ * symbol.
+ *
+ *     coefficient of w^beta z^e in Gamma(Phi), weight of e = k          [docs/method.md, (29)]
+ *
+ *     series times d/dz_j of c_alpha,  alpha = beta - 1_i         weight of the coefficient of c_alpha: k + 1 at most
+ *     series times d/dw^l of w^alpha,  alpha = beta + 1_l - mu                                         k at most
+ *
+ *     weight k + 1: an entry of the symbol      lower: a known row times a residue, added up (exact/row_sum.h) */
 #include <math.h>
 #include <string.h>
 

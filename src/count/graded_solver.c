@@ -1,5 +1,16 @@
-/* Solves the linear system Gamma(Phi) = 0 weight by weight: sparse elimination of the symbol, component by component,
- * and a dense echelon form for the conditions on the parameters. */
+/* graded_solver: Gamma(Phi) = 0 weight by weight: sparse elimination of the symbol, component by component, and a
+ * dense echelon form for the conditions on the parameters. [docs/method.md, sec. 10, "The algorithm"]
+ *
+ *     c_alpha at z^e     is a row: its entries are factors of the parameters p_1 .. p_N that are free so far
+ *
+ *                             p_1  p_2  ..  p_N
+ *         row(alpha, e)   [    1    0   ..   0   ]      weight of e at most k: known
+ *                         [    3    7   ..   0   ]
+ *
+ *     weight k:   equations (beta, e)     sum of known rows  +  symbol . (rows of weight k + 1)  =  0
+ *                 symbol leaves free      -> new parameters                              graded_symbol.c
+ *                 symbol cannot solve     -> conditions on p, in echelon form, used when few parameters survive
+ *     N(k + 1) = parameters - conditions */
 #include "count/graded_solver_internal.h"
 
 #include <math.h>
@@ -13,6 +24,7 @@ enum { spare_rows = 8 };
 
 /* ---- monomials in the velocities ---- */
 
+/* All exponents of w with a sum up to the degree, of this parity (-1: of both); their number. */
 static size_t monomials(size_t n, size_t degree, int parity, uint8_t *out)
 {
     uint8_t *e = nh_alloc(n + 1);
@@ -33,6 +45,7 @@ static size_t monomials(size_t n, size_t degree, int parity, uint8_t *out)
     return count;
 }
 
+/* A number for these exponents; UINT64_MAX: they are out of range. */
 static uint64_t code(size_t n, size_t degree, const int *e)
 {
     uint64_t c = 0;
@@ -58,6 +71,7 @@ int nh_graded_find_alpha(const nh_graded_system *s, const int *e)
 
 /* ---- rows ---- */
 
+/* Twice the room for parameters, up to the limit. */
 static void more_room(nh_graded_system *s)
 {
     size_t rows = s->alphas * s->r->size, all = rows + s->extensions, old = s->stride;

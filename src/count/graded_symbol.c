@@ -1,4 +1,10 @@
-/* The symbol of one weight: its components, in parts that several threads share. */
+/* graded_symbol: the symbol of one weight: its components, in parts that several threads share.
+ *
+ *     find_components     unknowns that occur in one equation belong together (union and find)
+ *     divide              components into parts with about as many equations each
+ *     eliminate_part      sparse elimination of each component (graded_component.h)
+ *     take_parameters     free unknowns become parameters, rows without unknowns conditions: in order, by one thread
+ *     back_substitute     the other unknowns follow, last pivot first */
 #include <string.h>
 
 #include "base/parallel.h"
@@ -79,6 +85,7 @@ static void keep_rest(const nh_graded_system *s, const nh_graded_component *c, p
 
 /* ---- the symbol's components ---- */
 
+/* The representative of x, with shorter ways for the next time. */
 static size_t root_of(size_t *parent, size_t x)
 {
     while (parent[x] != x) x = parent[x] = parent[parent[x]];
@@ -94,6 +101,7 @@ static void group(size_t count, const size_t *key, size_t keys, size_t *start, s
     for (size_t i = 0; i < count; i++) out[start[key[i] + 1]++] = i;
 }
 
+/* The most members of one component. */
 static size_t widest(size_t count, const size_t *start)
 {
     size_t most = 0;
@@ -112,6 +120,8 @@ typedef struct {
     part part[NH_GRADED_PARTS];
 } symbol;
 
+/* Unknowns that occur in one equation belong together: the symbol falls apart into components, listed one after
+ * another. */
 static symbol find_components(nh_graded_system *s)
 {
     size_t unknowns = s->alphas * s->unknowns_of, connected = 0;
@@ -176,6 +186,7 @@ static void divide(symbol *x)
     }
 }
 
+/* The components of one part, for one thread. */
 static void eliminate_part(size_t index, void *context)
 {
     symbol *x = context;

@@ -1,5 +1,9 @@
-/* The equations of motion as power series: their values at a few velocities give the coefficients of the polynomials in
- * the velocities. */
+/* jet_equations: the equations of motion as power series, coefficients in the velocities by differentiation.
+ *
+ *     x->rho (m), M (n x n), A (n), coefficient (monomials x n)      expressions, registered at the jet point
+ *     fields           b = rho(w = 0), R_i = rho(e_i) - b: series along the coordinates
+ *     accelerations    M a = A solved for each monomial of w: n x monomials series
+ *     along            a motion: each round of q' = rho, M v' = A gives one term more */
 #include "count/jet_equations.h"
 
 #include <string.h>
@@ -227,6 +231,7 @@ static void register_again(nh_jet_equations *x)
     x->products = products(x);
 }
 
+/* Drops coordinates of the list; `rates`: their rates are kept beside. */
 static void without(nh_jet_equations *x, size_t count, const nh_ex *list, bool rates)
 {
     nh_ex *coordinate = nh_arena_alloc(x->arena, (x->coordinates + 1) * sizeof *coordinate),

@@ -1,3 +1,8 @@
+/* lift: linear equations for coefficients modulo primes. [docs/method.md, sec. 10, "Construction"]
+ *
+ *     choose_columns    at fixed residues: how does each c_j change with each parameter?  -> terms times monomials
+ *     fractions         prime after prime: the null vector of  rate(term) monomial(parameters)  at random points
+ *     gather            c_j = sum of fractions times monomials */
 #include "count/lift.h"
 
 #include <stdlib.h>
@@ -250,6 +255,8 @@ static void gather(const nh_model *model, size_t terms, size_t columns, const co
     }
 }
 
+/* One expression from terms with rational coefficients, which residues modulo several primes give; false where they
+ * do not. */
 static bool lift(const nh_model *model, bool time, bool generic, size_t terms, const nh_ex *term, double most,
                  double *work, nh_ex *out)
 {

@@ -2,12 +2,12 @@
  *
  *     Phi = sum_j c_j f_j,   sum_j c_j Gamma(f_j) = 0
  *
- * Modulo a prime every random point gives one linear equation, and a few points more than terms determine the c_j, for
- * c_0 = 1.  At fixed residues of the parameters they are numbers; where four times one parameter makes some of them 4^k
- * times as large, and four times all of them multiplies the others by 4^D, the c_j are sums of these monomials in the
- * parameters (and roots of parameters in the terms have values at either place),
- * whose rational coefficients then follow from points with random parameters.  Several primes give the fractions.
- * Nothing of this is a proof: that is the caller's. */
+ * Modulo a prime every random point gives one linear equation, and a few points more than terms determine the c_j,
+ * for c_0 = 1.  At fixed residues of the parameters they are numbers; where four times one parameter makes some of
+ * them 4^k times as large, and four times all of them multiplies the others by 4^D, the c_j are sums of these
+ * monomials in the parameters (four, so that roots of parameters in the terms have values at both places), whose
+ * rational coefficients then follow from points with random parameters.  Several primes give the fractions. Nothing
+ * of this is a proof: that is the caller's. */
 #ifndef NH_LIFT_H
 #define NH_LIFT_H
 

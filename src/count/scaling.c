@@ -1,5 +1,11 @@
-/* Scalings from the values of the equations and their first derivatives at random points: a linear system for the
- * constants. */
+/* scaling: the constants kappa, mu, sigma, tau, e (and weights beta of functions) of a linear system.
+ * [docs/method.md, sec. 10, "Weights"]
+ *
+ *     columns     kappa (coordinates) | mu (coordinates) | sigma (n) | tau | e | beta (functions)
+ *     rows, at each random point and for each f = rho^s, M_ij, A_i, function:
+ *                 q_k f_q  ..         | f_q ..           | w_i f_w   |  - (weight of f) f
+ *
+ * Series of first order at a point give f and its derivatives. */
 #include "count/scaling.h"
 
 #include <string.h>
@@ -37,6 +43,7 @@ typedef struct {
     nh_residue *at, *slope; /* q, then w; value and derivatives of an expression */
 } place;
 
+/* A random point, where each coordinate and velocity is a series of order one in its own direction. */
 static place place_at(nh_jet_equations *x, nh_prime field, uint64_t seed)
 {
     size_t all = x->coordinates + x->n, *one = nh_alloc_array(all + 1, sizeof *one);
@@ -133,6 +140,7 @@ typedef struct {
     nh_residue *row, *own;       /* rows x width: equations; points x width for each function */
 } linear_system;
 
+/* The rows of all points, and the logarithmic derivatives of the functions there. */
 static bool collect(linear_system *s, nh_jet_equations *x, const nh_ex *function)
 {
     size_t each = s->c.rates + s->c.n * s->c.n + s->c.n + 1, found = 0;

@@ -1,4 +1,9 @@
-/* The matrix of a symmetry on the solutions, from values of random functionals on solutions and on their images. */
+/* solution_matrix: (S Phi_j) = sum_i out[i, j] Phi_i, from values of random functionals on solutions and on their
+ * images.
+ *
+ *     [ Phi_1 .. Phi_N | S Phi_1 .. S Phi_N ]   ->   echelon form   ->   [ 1 | matrix ]      rank N, or it has none
+ *
+ * S takes derivatives: along the frame's coordinates these are right up to order - step. */
 #include "count/scaling.h"
 
 #include <string.h>

@@ -1,4 +1,9 @@
-/* Translations and what turns them, from values modulo a prime; each equation is then proved. */
+/* turned_translations: translations and what turns them, from values modulo a prime; each equation is then proved.
+ * [docs/method.md, sec. 10, (30a)]
+ *
+ *     sample           rows at random points and velocities; unknowns  B_ij (c x c), then xi^s (m)
+ *     find_turnings    null space; short fractions; keeps_rates, keeps_accelerations prove [R, Gamma] = 0
+ *     is_tangent       on leaves: R and d/da_j tangent to them, B of what is tangent invertible */
 #include "count/turned_translations.h"
 
 #include <flint/nmod_mat.h>
@@ -53,11 +58,13 @@ typedef struct {
     nh_residue *M, *M_slope, *A, *A_slope, *A_by_w; /* n x n; n x n x m; n; n x m; n x n */
 } values;
 
+/* The derivative of a series along coordinate k. */
 static nh_residue slope(const algebra *g, const nh_jet_ring *ring, const nh_residue *series, size_t k)
 {
     return series[ring->up[(g->x->time + k) * ring->size]];
 }
 
+/* rate = b + R w and its slopes, M, A = coefficients times monomials of w, and dA/dw, at one velocity. */
 static values values_at(const algebra *g, const point *p, const nh_residue *w)
 {
     nh_prime f = g->field;
@@ -203,6 +210,7 @@ static bool sample(algebra *g)
 
 /* ---- proofs ---- */
 
+/* R(w^l) = B_ij a_j' for the coordinate a_i whose rate w^l is; else 0. */
 static nh_ex R_of_velocity(const algebra *g, const turning *t, size_t l)
 {
     nh_dag *d = g->x->dag;
@@ -226,6 +234,7 @@ static nh_ex R_of(const algebra *g, const turning *t, const nh_ex *Rw, nh_ex e)
     return sum;
 }
 
+/* R(q_s') - Gamma(R(q_s)) vanishes for every coordinate. */
 static bool keeps_rates(const algebra *g, const turning *t, const nh_ex *Rw)
 {
     nh_dag *d = g->x->dag;
@@ -241,6 +250,7 @@ static bool keeps_rates(const algebra *g, const turning *t, const nh_ex *Rw)
     return good;
 }
 
+/* R(A) + E^T A - M Gamma(E w) and R(M) + E^T M + M E vanish. */
 static bool keeps_accelerations(const algebra *g, const turning *t, const nh_ex *Rw)
 {
     const nh_jet_equations *x = g->x;

@@ -1,3 +1,22 @@
+/* Closed forms of integrals: f(x) -> F(x) with dF/dx = f, by the parallel Risch algorithm [Bronstein2007] (the
+ * candidates: antiderivative.h). It may miss an F; one that it finds is right, because dF/dx = f is an exact
+ * identity.
+ *
+ *      f
+ *      |  roots of quotients without denominators
+ *      |
+ *      read                letters u_i: kernels that depend on x, with the exponents they may have in F
+ *      |                   divisors p_j: factors of the denominator, with the power they keep in F (one less than in f)
+ *      |
+ *      candidates          log p_j, atan or atanh     put_functions_of
+ *      |                   of square roots            antiderivative_roots.c
+ *      |                   prod u_i^(n_i), and the same over prod p_j^(k_j)     put_monomials
+ *      |
+ *      combine             f = sum_j c_j dg_j/dx with constants c_j: linear, exact (relation_express.h)
+ *      |
+ *      by_parts            where this fails: int a L^n dx = A L^n - int A (L^n)' dx, L a logarithm or inverse function
+ *
+ * Elliptic integrals come first where they are asked for: they are few, and the elementary candidates many. */
 #include "exact/antiderivative_internal.h"
 
 #include "base/memory.h"
@@ -69,8 +88,8 @@ nh_ex nh_antiderivative_root(const builder *b, nh_ex D)
 
 /* ---- the factors of a denominator ---- */
 
-/* A factor's coefficients of 1, u, v, u^2 in two kernels (v = u's number: in one); false where it has other terms, or
-   they depend on x. */
+/* A factor's coefficients of 1, u, v, u^2 in two kernels (v = u: in one), out[0] to out[3]; false where it has other
+ * terms, or they depend on x. */
 static bool coefficients(const builder *b, const nh_factor *f, size_t u, size_t v, nh_ex out[4])
 {
     nh_dag *d = b->d;
@@ -126,6 +145,8 @@ static void put_turning(builder *b, size_t cosine, size_t sine, const nh_ex k[4]
     nh_antiderivative_put(b, nh_call(d, NH_ATAN, nh_div(d, w, bottom)));
 }
 
+/* The functions whose derivatives have the divisor p as denominator: its logarithm; where it is quadratic in a
+ * letter, put_quadratic; where it is linear in a cosine and its sine, put_turning. */
 static void put_functions_of(builder *b, const divisor *p)
 {
     nh_ex c[4];
@@ -150,6 +171,7 @@ static void put_functions_of(builder *b, const divisor *p)
 
 /* ---- what f is made of ---- */
 
+/* A factor of the denominator that depends on x, with its power in the denominator of F. */
 static void add_divisor(builder *b, nh_ex e, int64_t power, const nh_factor *terms)
 {
     if (!nh_depends(b->d, e, b->in->x)) return;
@@ -157,6 +179,7 @@ static void add_divisor(builder *b, nh_ex e, int64_t power, const nh_factor *ter
     else b->divisor[b->divisors++] = (divisor){e, power, terms};
 }
 
+/* The polynomial of a factor as an expression in the kernels. */
 static nh_ex factor_expression(const builder *b, const nh_factor *f)
 {
     nh_dag *d = b->d;
@@ -196,6 +219,9 @@ static int64_t degree_of(const builder *b, size_t g)
     return over > under ? over : under;
 }
 
+/* The exponents that the kernel g may have in F. By the derivative of a monomial: a kernel u with u' of degree 0 (x,
+ * logarithms) gains one; exponentials keep their exponents, also negative ones; of a root of order q, 1 - q to q - 1
+ * are independent; of a sine 0 and 1, as sin^2 = 1 - cos^2. */
 static void add_letter(builder *b, size_t g)
 {
     const nh_kernel *k = &b->form.kernels.item[g];
@@ -258,6 +284,7 @@ static void put_monomials(builder *b, size_t at, nh_ex so_far, int64_t degree)
 
 /* ---- the whole ---- */
 
+/* In the order in which a relation prefers them: short ones first. */
 static void candidates(builder *b)
 {
     nh_ex below = nh_int(b->d, 1);
@@ -289,6 +316,8 @@ static void join(const builder *b, size_t i, size_t j, nh_ex *c, nh_ex *F)
     c[i] = c[j] = nh_int(d, 0);
 }
 
+/* c with sum_j c_j dg_j/dx = f, from one exact relation of the n + 1 functions dg_1/dx .. dg_n/dx, f; the logarithms
+ * that differ by their sign are joined. */
 static bool combine(const builder *b, nh_ex f, nh_ex *F)
 {
     nh_dag *d = b->d;
@@ -338,6 +367,7 @@ static nh_ex without_fractions_below(const nh_integration *in, nh_ex f)
     return f;
 }
 
+/* The whole for one f without integration by parts. */
 static bool elementary(const nh_integration *in, nh_ex f, nh_ex *F)
 {
     f = nh_simplify_short(in->dag, without_fractions_below(in, f), 0);

@@ -1,4 +1,15 @@
-/* antiderivative_roots: antiderivatives with square roots of quadratic polynomials. */
+/* Candidates with square roots of polynomials of degree two, for antiderivatives (antiderivative.h).
+ *
+ *      root of Q(y), Q = a y^2 + b y + c                 y = x, x^(1/n), exp(lambda x), cos u, sin u, tan(u/2)
+ *
+ *        int dy/sqrt(Q)              first kind          log or atan         put_first_kind
+ *        int dy/((y - p) sqrt(Q))    third kind          area function, or atan; p from the divisors   put_third_kind
+ *
+ *      root of a + c sin(u)^2 or a + b cos(u)            elliptic integrals of u or u/2       put_elliptic
+ *      root of k_0 + k_2 y^2 + k_4 y^4                   F, the first kind alone         first_kind_of_quartic
+ *
+ * Only the functions are proposed here; which of them occur, and with what coefficients, the linear system of
+ * antiderivative.c decides, except for the quartic, whose integral is F itself. */
 #include "exact/antiderivative_internal.h"
 
 #include "exact/normal.h"
@@ -33,6 +44,7 @@ static int coefficients_of(const builder *b, nh_ex x, nh_ex Q, nh_ex out[3])
     return nh_is_zero(d, second) ? !nh_is_zero(d, out[1]) : 2;
 }
 
+/* y replaced by what it stands for. */
 static nh_ex back(const builder *b, const radical *r, nh_ex e)
 {
     return r->count ? nh_substitute(b->d, e, 1, &r->x, &r->back) : e;
@@ -55,6 +67,7 @@ static nh_ex with_powers(nh_dag *d, nh_ex e, nh_ex y)
     return nh_substitute(d, e, count, call, by);
 }
 
+/* An expression in x written in the variable y of the radical. */
 static nh_ex in_variable(const builder *b, const radical *r, nh_ex e)
 {
     nh_dag *d = b->d;
@@ -96,6 +109,7 @@ static void put_third_kind(builder *b, const radical *r, nh_ex p)
     else nh_antiderivative_put(b, nh_call(d, NH_ATAN, f));
 }
 
+/* The third kind at the real zeros of the divisor p, a polynomial in y of degree one or two. */
 static void put_poles(builder *b, const radical *r, nh_ex p)
 {
     nh_dag *d = b->d;
@@ -113,6 +127,8 @@ static void put_poles(builder *b, const radical *r, nh_ex p)
     }
 }
 
+/* First kind where Q has degree two, and the third for each divisor; for y = exp(lambda x) also with p = 0, because
+ * dx = dy/(lambda y). */
 static void put_integrals(builder *b, radical r)
 {
     nh_dag *d = b->d;
@@ -383,6 +399,8 @@ typedef struct {
     nh_ex P;                     /* of the root in y; it still depends on x where it is no function of y */
 } half_argument;
 
+/* Q in y: cos u = (1 - y^2)/(1 + y^2), sin u = 2 y/(1 + y^2), or exp(u) = (1 + y)/(1 - y); P = Q factor^2, factor = 1
+ * + y^2 or 1 - y^2. False where P still contains x. */
 static bool half_argument_of(const builder *b, const letter *l, nh_ex Q, half_argument *h)
 {
     nh_dag *d = b->d;
@@ -447,6 +465,7 @@ void nh_antiderivative_put_elliptic(builder *b)
     }
 }
 
+/* One root of f: in x itself, then in each y that f's letters offer. */
 static void put_root(builder *b, nh_ex Q, nh_ex root)
 {
     put_integrals(b, (radical){.x = b->in->x, .Q = Q, .root = root});

@@ -1,3 +1,12 @@
+/* Relations with many digits: the null vectors of the Schur complement G (ball_fit.h).
+ *
+ *    1. add        one row [L F] per point, scaled to its largest entry; A^T A is summed up, n x n
+ *    2. follow     X = -(F^T F)^-1 F^T L                         following x leading: F x = what L a leaves
+ *    3. schur      G = L^T L + (F^T L)^T X                       leading x leading
+ *    4. eliminate  Gauss-Jordan with complete pivoting, until the largest entry is below 10^(-2 digits)
+ *    5. write      a free column k: a_k = 1, pivots a = -G_row,k, following values X a
+ *
+ * G is quadratic: a relation that holds to `digits` digits leaves 10^(-2 digits) in it. */
 #include "exact/ball_fit.h"
 
 #include <math.h>

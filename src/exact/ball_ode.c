@@ -1,4 +1,22 @@
-/* ball_ode: the equations at one s, and power series about it. */
+/* ball_ode: the equations at one s, and power series about it (the method: ball_ode.h).
+ *
+ *      samples p = 1..P of the other variables,  words i = 1..W
+ *
+ *           [ r b_i(s, p) ] f' + [ c_i(s, p) ] f = 0         P x W: divided by r, B f' + R f = 0
+ *
+ *           M = -(B^T B)^-1 B^T R      f' = M f               W x W
+ *           C = R + B M                C f = 0                P x W: what least squares leaves
+ *
+ *      one piece of the s axis:
+ *
+ *           centre - half                 centre                 centre + half
+ *           |--x---x----x-----x------x------+------x------x-----x----x---x--|     x: nodes, M there
+ *
+ *           M(x) = sum_k M_k x^k by interpolation,   (k+1) f_(k+1) = half sum_j M_j f_(k-j)
+ *
+ * Words that are combinations of others with functions of s as coefficients make B^T B singular; they are found by
+ * elimination at the first s, and left out. A piece whose interpolation or series is not accurate enough is tried
+ * again with a smaller half width. */
 #include "exact/ball_ode_internal.h"
 
 #include <math.h>
@@ -104,6 +122,7 @@ static bool fill_row(nh_ball_ode *o, double s, size_t sample, slong row, arb_mat
     return true;
 }
 
+/* All rows of B and R at s: P x W. */
 static bool fill(nh_ball_ode *o, double s, arb_mat_t B, arb_mat_t R)
 {
     arb_t r;
@@ -114,6 +133,7 @@ static bool fill(nh_ball_ode *o, double s, arb_mat_t B, arb_mat_t R)
     return fine;
 }
 
+/* M: W x W; C (NULL: not asked for): P x W, allocated here. */
 bool nh_ode_equation(nh_ball_ode *o, double s, arb_mat_t M, arb_mat_t *C)
 {
     slong W = (slong)o->words, P = (slong)o->samples;

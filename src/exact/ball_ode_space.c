@@ -1,4 +1,16 @@
-/* ball_ode: the space of solutions, and its continuation. */
+/* ball_ode: the space of solutions of f' = M f with C f = 0, and its continuation.
+ *
+ *    1. allowed         at the centre: null vectors of C^T C, the values f(centre) that the conditions leave
+ *    2. first piece     the solutions with these initial values, as power series
+ *    3. allowed_along   their combinations with C f = 0 at several s of the piece: null vectors of sum (C F)^T (C F)
+ *    4. combine         the space gets these as its basis; its dimension is the answer
+ *    5. extend          piece after piece to either side, each from the value at the last one's end:
+ *
+ *                  |-------piece 0-------|
+ *                             |----piece 1---+-------------|        centred at the end of piece 0
+ *                                                 |--piece 2-+----|     .  singularity of M
+ *
+ * The conditions are not used in phase 5: they hold there because they hold in an interval. */
 #include <math.h>
 
 #include "base/memory.h"

@@ -1,3 +1,13 @@
+/* Taylor series with rigorous bounds (ball_series.h): every node of the graph once, as a polynomial of balls.
+ *
+ *       centre - half        centre        centre + half
+ *       |----|----|----|----|--+--|----|----|----|----|     terms a_0 .. a_(N-1): balls about the centre
+ *                                                           a_N: about each of the pieces, as an interval
+ *                                                           |R| <= the largest |a_N| half^N
+ *
+ * Variables that are defined by others are series, too: a root by the root of its square's series with the sign that
+ * it has in the ball, an integral by the integral of its rate's series. On a piece that is not at the centre an
+ * integral is enclosed by its value at the piece before, plus the rate on the piece times the distance. */
 #include "exact/ball_series.h"
 
 #include <math.h>
@@ -89,6 +99,7 @@ static const nh_ball_defined *definition(const nh_ball_series *s, nh_ex e)
     return NULL;
 }
 
+/* Depends e on the variable, or on a symbol that is defined? */
 static bool moves(const nh_ball_series *s, nh_ex e)
 {
     bool any = nh_depends(s->dag, e, s->variable);
@@ -190,6 +201,7 @@ static bool eval_terms(nh_ball_series *s, nh_ex e, bool product, arb_poly_t out)
     return fine;
 }
 
+/* A function of its argument's series. */
 static bool eval_function(nh_ball_series *s, nh_ex e, arb_poly_t out)
 {
     nh_function f = nh_function_of(s->dag, e);
@@ -222,6 +234,7 @@ static bool eval_node(nh_ball_series *s, nh_ex e, arb_poly_t out)
     }
 }
 
+/* The series of one node, up to the present length, in `out`; false where it does not exist. */
 static bool eval(nh_ball_series *s, nh_ex e, arb_poly_t out)
 {
     if (e >= s->nodes) return false;

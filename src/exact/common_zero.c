@@ -1,3 +1,15 @@
+/* A common zero of polynomials P_i(x, p) that lies at a known point, in closed form (common_zero.h).
+ *
+ *      P_1, P_2, ..       irreducible factors that contain an unknown and vanish at the point, the shortest   (pick)
+ *          |              roots of p without unknowns eliminated: res_r(P, b r^m - a)   (without_roots)
+ *      eliminate x_l      resultants of pairs, for each l other than k
+ *          |              fewer P_i than unknowns: derivatives are added     (add_derivatives)
+ *      isolate            G(x_k, p), the one of the lowest degree in x_k
+ *          |
+ *      solve              a x + b,  a x^2 + b x + c,  a x^4 + b x^2 + c:  x = (rational + factor sqrt(..))^(1/outer)
+ *
+ * Of the branches of a root the one that has the known value is taken. Everything large is given up, because
+ * resultants grow quickly. */
 #include "exact/common_zero.h"
 
 #include <math.h>
@@ -29,6 +41,7 @@ static void list_clear(list *l)
     l->count = 0;
 }
 
+/* Removes entry i; those after it move up. */
 static void list_remove(list *l, size_t i)
 {
     fmpz_mpoly_clear(&l->item[i], l->ctx);
@@ -58,6 +71,7 @@ static double value_of(const list *l, const fmpz_mpoly_struct *p, double *size)
     return sum;
 }
 
+/* P| relative to the sum of the absolute values of its terms. */
 static bool vanishes(const list *l, const fmpz_mpoly_struct *p)
 {
     double size, value = value_of(l, p, &size);
@@ -179,6 +193,8 @@ static bool resultant_is_small(const list *l, const fmpz_mpoly_struct *a, const 
     return terms <= most;
 }
 
+/* Replaces the list by what does not contain the generator, and the resultants of the others with one of the lowest
+ * degree. */
 static void eliminate(list *l, size_t generator)
 {
     list out;
@@ -327,6 +343,7 @@ static bool coefficients(const list *l, const fmpz_mpoly_struct *p, size_t gener
            (most <= 2 || (most == 4 && fmpz_mpoly_is_zero(&c[1], l->ctx) && fmpz_mpoly_is_zero(&c[3], l->ctx)));
 }
 
+/* P(x) = 0 of degree one or two in x, or in x^2. */
 static bool solve(const list *l, const fmpz_mpoly_struct *p, size_t generator, nh_zero_root *out)
 {
     fmpz_mpoly_struct c[5];

@@ -1,4 +1,15 @@
-/* Square roots by conjugates, down to quotients of polynomials. */
+/* Square roots by conjugates, down to quotients of polynomials (field_root.h).
+ *
+ *      e = a + b r,  r^2 = D                    r the last root; a, b, D without it
+ *          |
+ *          +-- b = 0     sqrt(a), or r sqrt(a/D)
+ *          |
+ *          +-- n = sqrt(a^2 - b^2 D)            the norm, one root less
+ *              u = sqrt((a + n)/2), or sqrt((a - n)/2)
+ *              sqrt(e) = u + b r/(2 u)          because u^2 + b^2 D/(4 u^2) = a
+ *
+ * Without roots, sin(a) = 2 t/(1 + t^2) and cos(a) = (1 - t^2)/(1 + t^2) with t = tan(a/2) leave a quotient of
+ * polynomials, which is a square if its factors occur in even powers. */
 #include "exact/field_root.h"
 
 #include "base/memory.h"
@@ -95,6 +106,7 @@ static bool root_without(root_search *x, size_t last, nh_ex e, nh_ex *root)
     return good;
 }
 
+/* The root of e in the field with the first `roots` roots. */
 static bool root_with(root_search *x, size_t roots, nh_ex e, nh_ex *root)
 {
     nh_dag *d = x->dag;

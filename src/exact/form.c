@@ -1,3 +1,9 @@
+/* An expression as a quotient of polynomials in kernels (form.h), in four steps:
+ *
+ *      e  -- rewrite -->            arguments, radicands and exponents canonical, each by a form of its own
+ *         -- collect, settle -->    kernels k_1 .. k_n: sin and cos of x/6 for sin(x/2) and cos(x/3)    kernel.c
+ *         -- relate -->             sin^2 = 1 - cos^2, r^m = radicand, sqrt(a b) = sqrt(a) sqrt(b), ..
+ *         -- nh_form_eval -->       num/den in Z[k_1 .. k_n], reduced by the relations             form_eval.c */
 #include "exact/form.h"
 
 #include <math.h>
@@ -36,6 +42,7 @@ static bool free_symbol(const nh_dag *dag, nh_ex e)
     return nh_kind_of(dag, e) == NH_SYMBOL && !nh_dag_power_rule(dag, e);
 }
 
+/* A product of powers of symbols? */
 static bool plain_product(const nh_dag *dag, nh_ex e)
 {
     for (size_t i = 0; i < nh_arity(dag, e); i++) {
@@ -122,6 +129,7 @@ static nh_ex emit_mixed(nh_form *form)
     return fits ? sum : nh_real(dag, NAN); /* inexact: the caller treats it as an overflow */
 }
 
+/* e as its normal form prints it, without its content; remembered. */
 static nh_ex canonical(nh_forms *s, nh_ex e)
 {
     uint32_t known;
@@ -312,6 +320,7 @@ typedef struct {
 
 enum { most_roots = 6, longest_product = 400 }; /* terms */
 
+/* Is whole = a b? */
 static bool is_product(nh_form *f, const nh_quotient *whole, const nh_quotient *a, const nh_quotient *b)
 {
     if (nh_quotient_terms(a) * nh_quotient_terms(b) > longest_product || nh_quotient_terms(whole) > longest_product)
@@ -410,6 +419,7 @@ static void relate_root(nh_form *f, size_t generator, square_root *root, size_t 
     if (k->unit.q == 2 && !others && *roots < most_roots) root[(*roots)++] = (square_root){generator, radicand};
 }
 
+/* sign(u)? */
 static bool is_sign(const nh_dag *dag, nh_ex e)
 {
     return nh_kind_of(dag, e) == NH_FUNCTION && nh_function_of(dag, e) == NH_SIGN;
@@ -434,8 +444,8 @@ void nh_form_relate_abs(nh_form *f, size_t generator)
     else nh_quotient_field_relate(f->field, generator, 2, nh_quotient_pow(f->field, u, 2));
 }
 
-/* Orders kernels: radicands before their roots, and the expressions in a symbol's relation before the symbol, so that
- * every relation is known before it is needed. */
+/* The relations of the kernels, radicands before their roots, and the expressions in a symbol's relation before the
+ * symbol, so that every relation is known before it is needed. */
 static void relate(nh_form *f)
 {
     square_root root[most_roots];
@@ -455,6 +465,7 @@ static void relate(nh_form *f)
     }
 }
 
+/* The four steps. */
 nh_quotient_field_state nh_form_make(nh_forms *forms, nh_ex e, bool opaque, nh_form *form)
 {
     *form = (nh_form){0};

@@ -71,6 +71,7 @@ static quotient eval_growth(nh_form *f, nh_kernel_kind family, nh_ex base, nh_ex
     return q;
 }
 
+/* base^exponent by the kind of the exponent: whole, a fraction (a root's kernel), a kernel by itself, or c + rest. */
 static quotient eval_power(nh_form *f, nh_ex base, nh_ex exponent)
 {
     nh_dag *dag = f->kernels.dag;
@@ -166,6 +167,7 @@ static rotation hyperbolic(nh_form *f, nh_ex argument)
     return (rotation){nh_quotient_scale(f->field, sum, half), nh_quotient_scale(f->field, difference, half)};
 }
 
+/* A function of canonical arguments as a polynomial in its kernels; a kernel of its own where it has no other. */
 static quotient eval_function(nh_form *f, nh_ex e)
 {
     nh_dag *dag = f->kernels.dag;

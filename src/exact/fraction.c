@@ -1,3 +1,6 @@
+/* A fraction from residues: Chinese remainders for all primes but the last give x modulo their product m; Euclid's
+ * algorithm for x and m, stopped half way, gives a/b = x (mod m) with a and b below the root of m/2, the only such
+ * fraction; the last prime, which has no part in this, checks it. */
 #include "exact/fraction.h"
 
 bool nh_fraction_of(size_t primes, const nh_prime *prime, const nh_residue *residue, fmpq_t out)

@@ -61,6 +61,7 @@ static bool list_constants(problem *x, nh_dag *dag)
     return true;
 }
 
+/* All symbols at random residues; the variables as series with slope 1 in their own direction. */
 static nh_jet_eval *at_point(problem *x, uint64_t seed)
 {
     const nh_jet_ring *ring = x->ring;

@@ -1,3 +1,10 @@
+/* A^T S + S A + c S = 0 for a symmetric S over the field of the parameters (invariant_forms.h): exact elimination.
+ *
+ *      unknowns     S_00  S_01  S_02 | S_11  S_12 | S_22         n (n + 1)/2, row by row above the diagonal
+ *      equations    (A^T S + S A + c S)_ij, i <= j               as many, each of at most 2 n + 1 unknowns
+ *
+ * Equation after equation: unknowns that are solved are replaced, and the last that remains is solved for. Those that
+ * are never solved for are the free ones; each of them at 1, the others at 0, is one form of the basis. */
 #include "exact/invariant_forms.h"
 
 #include <string.h>
@@ -29,12 +36,14 @@ typedef struct {
 
 static bool fine(const problem *p) { return nh_quotient_field_state_of(p->field) == NH_FIELD_FINE; }
 
+/* A_ij; NULL: it is 0. */
 static const nh_quotient *entry(const problem *p, size_t i, size_t j)
 {
     const nh_quotient *a = p->relation.value[i * p->q->n + j];
     return nh_quotient_is_zero(p->field, a) ? NULL : a;
 }
 
+/* The place of S_ij = S_ji among the unknowns. */
 static size_t unknown_at(const problem *p, size_t i, size_t j)
 {
     size_t a = i < j ? i : j, b = i < j ? j : i;
@@ -43,6 +52,7 @@ static size_t unknown_at(const problem *p, size_t i, size_t j)
 
 /* ---- one equation ---- */
 
+/* The equation's coefficient of an unknown += factor. */
 static void add(problem *p, size_t unknown, const nh_quotient *factor)
 {
     const nh_quotient *old = p->sum[unknown];
@@ -229,6 +239,7 @@ static bool write_factor(problem *p, const nh_quotient *value, written *memory, 
     return true;
 }
 
+/* z.S z of the entries v of S, primitive, terms with one coefficient together. */
 static bool write_form(problem *p, const combination *v, nh_ex *out)
 {
     nh_dag *d = p->q->dag;

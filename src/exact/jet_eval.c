@@ -1,4 +1,19 @@
-/* Expressions as truncated power series modulo a prime: every node of the graph once, operands first. */
+/* Expressions as truncated power series modulo a prime: e(z) up to the order of the ring, where the symbols are
+ * series.
+ *
+ *         symbols set by nh_jet_eval_set                 CONSTANT: kept for all later evaluations
+ *             |                                          VARYING:  forgotten when a symbol that varies is set anew
+ *        a stack of nodes, operands first                UNKNOWN:  not computed yet
+ *             |
+ *        compute: by the kind of the node
+ *             sum, product, power         jet_ring.h
+ *             exp, sin, log, atan ..      constant terms from the point (jet_point.h), the rest by the Euler field
+ *             primitives, solutions       f = int P, f' = P + Q f, f'' = P f' + Q f: recurrences, too
+ *             unspecified functions       random derivatives, which depend on the residue of the argument only
+ *
+ * Every node of the graph is computed once; an expression that occurs in many others costs no more than one that
+ * occurs in one. Where a constant term does not exist (a pole, a root of a non-residue), the point is `unlucky`, and
+ * the caller takes another one. */
 #include "exact/jet_eval.h"
 
 #include <string.h>
@@ -83,6 +98,7 @@ void nh_jet_eval_set(nh_jet_eval *v, nh_ex symbol, const nh_residue *series, boo
 
 /* ---- one node ---- */
 
+/* p/q modulo the prime; unlucky where the prime divides q. */
 static nh_residue number(nh_jet_eval *v, nh_num a)
 {
     nh_residue r = 0;
@@ -90,6 +106,7 @@ static nh_residue number(nh_jet_eval *v, nh_num a)
     return r;
 }
 
+/* sum_i c_i e_i + c */
 static void sum(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     nh_jet_constant(v->ring, number(v, nh_constant_of(v->dag, e)), out);
@@ -97,6 +114,7 @@ static void sum(nh_jet_eval *v, nh_ex e, nh_residue *out)
         nh_jet_add_multiple(v->ring, out, number(v, nh_coefficient_of(v->dag, e, i)), v->value[nh_child(v->dag, e, i)]);
 }
 
+/* base^n for a whole n: by the recurrence where the base does not vanish at the point, otherwise by squaring. */
 static void whole_power(nh_jet_eval *v, const nh_residue *base, int64_t n, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
@@ -124,6 +142,8 @@ static void whole_power(nh_jet_eval *v, const nh_residue *base, int64_t n, nh_re
     nh_free(square);
 }
 
+/* base^(p/q): the constant term is the root that the point chose for the base, the rest follows by nh_jet_power; a
+ * base that is known to be a square P^2 gives P^p instead (q = 2). */
 static void power(nh_jet_eval *v, nh_ex base, nh_num exponent, nh_residue *out)
 {
     const nh_residue *b = v->value[base];
@@ -138,6 +158,7 @@ static void power(nh_jet_eval *v, nh_ex base, nh_num exponent, nh_residue *out)
     }
 }
 
+/* c prod_i base_i^(n_i) */
 static void product(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
@@ -184,6 +205,7 @@ static void circular(nh_jet_eval *v, nh_ex e, nh_residue *out)
     nh_free(sine);
 }
 
+/* exp(u), or with exp(-u) the hyperbolic functions. */
 static void exponential(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
@@ -246,6 +268,7 @@ static bool angle(nh_jet_eval *v, const nh_residue *y, const nh_residue *x, nh_r
     return !v->unlucky;
 }
 
+/* Logarithms, inverse functions, atan2, |u| and sign(u): a constant term of the point's, then E(f) = f'(u) E(u). */
 static void primitive(nh_jet_eval *v, nh_ex e, nh_residue *out)
 {
     const nh_jet_ring *r = v->ring;
@@ -339,6 +362,7 @@ static bool is_solution(const nh_jet_eval *v, nh_ex e)
     return nh_is_named_function(f) && f != NH_UNSPECIFIED;
 }
 
+/* The value of one node whose operands are known. */
 static void compute(nh_jet_eval *v, nh_ex e)
 {
     nh_residue *out = room(v, e);
@@ -414,6 +438,7 @@ static void compute_all(nh_jet_eval *v, nh_ex e)
 
 /* ---- several expressions ---- */
 
+/* out: n x ring->size. */
 bool nh_jet_eval_all(nh_jet_eval *v, size_t n, const nh_ex *e, nh_residue *out)
 {
     for (size_t k = 0; k < n && !v->unlucky; k++) compute_all(v, e[k]);

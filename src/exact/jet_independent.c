@@ -1,4 +1,19 @@
-/* The independence of roots by patterns of squares and non-squares, and that of transcendental functions by series. */
+/* Are the functions at a point independent, except for what the point keeps (jet_independent.h)?
+ *
+ *      K_2  = K_1(sqrt of radicands with roots of level 1)        roots of level 1: their radicands contain
+ *       |                                                         roots of level 0, and so on
+ *      K_1  = K_0(sqrt of radicands in K_0)
+ *       |
+ *      K_0  = Q(symbols, exp, sin, cos, log, ..)                  transcendental: independent atoms, by series [Ax1971]
+ *
+ *      one level:       radicand   D_1  D_2  D_3       a row per random point: 1 where the residue is no square
+ *        point 1                    1    0    1        full rank over the field of two elements: no product of
+ *        point 2                    0    1    1        the D_i is a square in K, and the level has degree 2^3
+ *        point 3                    1    1    1
+ *
+ * Where the rank stays below for many points, the null vector says which product seems to be a square: then its root
+ * is searched (field_root.h), and the last root of the product is from then on a function of the others. This repeats
+ * until a level is independent, or no root is found: then nothing is known. */
 #include "exact/jet_independent.h"
 
 #include <flint/nmod_mat.h>
@@ -29,8 +44,10 @@ typedef struct {
 
 /* ---- the tower ---- */
 
+/* Roots of odd order are unique modulo the primes that are taken, and need no test. */
 static bool is_even_root(const nh_jet_kernel *k) { return k->kind == NH_JET_ROOT && k->order % 2 == 0; }
 
+/* The symbols that get values of their own. */
 static void list_symbols(tower *x)
 {
     nh_ex *node, *key = nh_alloc_array(x->point->kernels + 1, sizeof *key);
@@ -294,6 +311,7 @@ static bool independent_atoms(tower *x, bool real)
     return independent;
 }
 
+/* Level by level, then the atoms of the two kinds of transcendental functions. */
 const char *nh_jet_point_related(nh_jet_point *point)
 {
     tower x = {.point = point, .dag = point->dag};

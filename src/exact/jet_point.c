@@ -1,4 +1,9 @@
-/* Residues for the functions in expressions, chosen such that the relations between them hold. */
+/* Residues for the functions in expressions, chosen such that the relations between them hold (jet_point.h).
+ *
+ * First all expressions are registered: each function notes its kernel (an atom, a radicand, or itself) and the
+ * common denominator of the multiples of this atom, so that sin(x/2) and cos(x/3) are functions of one angle x/6.
+ * Then, for each prime and seed, a kernel gets its residue when it is first asked for, from a generator that depends
+ * on its place in the list only: the order of evaluation does not matter. */
 #include "exact/jet_point.h"
 
 #include <flint/ulong_extras.h>
@@ -134,6 +139,7 @@ static bool note_inverse(nh_jet_point *x, nh_ex e)
     return nh_jet_point_register(x, 1, &rate);
 }
 
+/* Registers the kernel of a function call. */
 static bool note_function(nh_jet_point *x, nh_ex e)
 {
     switch (nh_function_of(x->dag, e)) {

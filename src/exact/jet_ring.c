@@ -1,5 +1,20 @@
-/* Truncated power series modulo a prime: products by lists of pairs of exponents grouped by their sum, all other
- * operations by recurrences of the Euler field. */
+/* Truncated power series modulo a prime (the equations: jet_ring.h).
+ *
+ * Once for a ring: (1) the exponents e with |e| <= order are listed, by |e| and then in lexicographic order; (2)
+ * `before` counts them, so that an exponent finds its index by m additions instead of a search; (3) for each e all
+ * pairs e = left + right are written down, of which a product is one sum; (4) `up` holds the index of e + 1_k, for
+ * derivatives.
+ *
+ *   two variables of weight 1, order 2:            c_e is the coefficient of z^e
+ *
+ *     index      0     1     2     3     4     5        first[|e|] = 0, 1, 3, 6
+ *     exponent  00    01    10    02    11    20
+ *     |e|        0     1     1     2     2     2
+ *
+ *     pairs of 11:  (00, 11) (10, 01) (01, 10) (11, 00)      (a b)_11 = a_00 b_11 + a_10 b_01 + a_01 b_10 + a_11 b_00
+ *
+ * Coefficients by increasing |e| are computed from those of lower |e| only: functions need one pass and no iteration.
+ */
 #include "exact/jet_ring.h"
 
 #include <stdlib.h>
@@ -40,6 +55,7 @@ size_t nh_jet_ring_size(size_t variables, const size_t *weight, size_t order, si
     return size <= most ? size : SIZE_MAX;
 }
 
+/* e| = sum_k weight_k e_k. */
 static size_t degree_of(const nh_jet_ring *r, const uint8_t *e)
 {
     size_t degree = 0;
@@ -67,6 +83,7 @@ static void count_before(nh_jet_ring *r)
         }
 }
 
+/* The exponents of lower |e|, and for each k those that agree with e up to k - 1 and have a smaller e_k. */
 size_t nh_jet_ring_find(const nh_jet_ring *r, const uint8_t *e)
 {
     size_t left = degree_of(r, e), at = r->first[left];
@@ -77,6 +94,7 @@ size_t nh_jet_ring_find(const nh_jet_ring *r, const uint8_t *e)
     return at;
 }
 
+/* exponent, degree, first and variables_in: all degrees, one after another. */
 static void list_exponents(nh_jet_ring *r)
 {
     uint8_t *current = nh_alloc(r->variables + 1);
@@ -103,6 +121,7 @@ typedef struct {
     uint32_t *index; /* NULL: there are too many codes */
 } codes;
 
+/* The code of e: codes of sums are sums of codes, as long as no e_k exceeds order/weight_k. */
 static size_t code_of(const nh_jet_ring *r, const codes *c, const uint8_t *e)
 {
     size_t code = 0;
@@ -180,6 +199,7 @@ static void list_pairs(nh_jet_ring *r)
     nh_free(left);
 }
 
+/* up[k][e] = the index of e + 1_k, UINT32_MAX beyond the order. */
 static void list_steps(nh_jet_ring *r)
 {
     size_t m = r->variables;
@@ -269,6 +289,8 @@ static void multiply_along_line(const nh_jet_ring *r, const nh_residue *a, const
     nh_free(row);
 }
 
+/* Three cases: a constant factor; one variable of weight 1, where rows of a Toeplitz matrix are added by vectors; and
+ * the pairs in general, without those exponents whose variables occur in neither factor. */
 void nh_jet_mul(const nh_jet_ring *r, const nh_residue *a, const nh_residue *b, nh_residue *out)
 {
     enum { short_line = 12 };
@@ -310,6 +332,7 @@ void nh_jet_sub_product(const nh_jet_ring *r, nh_residue *sum, const nh_residue 
     add_product(r, sum, a, b, true);
 }
 
+/* (da/dz_k)_e = (e_k + 1) a_(e + 1_k) */
 void nh_jet_derivative(const nh_jet_ring *r, const nh_residue *a, size_t k, nh_residue *out)
 {
     for (size_t e = 0; e < r->size; e++) {
@@ -366,6 +389,7 @@ static nh_residue step(const nh_jet_ring *r, const nh_residue *euler, const nh_r
     return nh_residue_mul(r->field, nh_residue_reduce(r->field, sum), r->inverse[r->degree[e]]);
 }
 
+/* e| y_e = sum over g != 0 of |g| u_g y_(e-g); with g = 0 the term is 0, so that y_e itself does not occur. */
 void nh_jet_exponential(const nh_jet_ring *r, const nh_residue *u, nh_residue at, nh_residue *out)
 {
     nh_residue *euler = nh_alloc_array(r->size, sizeof *euler);
@@ -377,6 +401,7 @@ void nh_jet_exponential(const nh_jet_ring *r, const nh_residue *u, nh_residue at
     nh_free(euler);
 }
 
+/* E(sin u) = E(u) cos u, E(cos u) = -E(u) sin u, both at once, because each needs the other of lower order. */
 void nh_jet_circle(const nh_jet_ring *r, const nh_residue *u, nh_residue sine, nh_residue cosine, nh_residue *sin,
                    nh_residue *cos)
 {
@@ -421,6 +446,8 @@ static void subtract_row(const nh_jet_ring *r, size_t from, size_t length, nh_re
     for (size_t k = from; k < length; k++) nh_jet_sub_product(r, row + k * r->size, factor, other + k * r->size);
 }
 
+/* For each column: a pivot row whose entry is not 0 at the point, that is a unit of the ring; the row over its pivot;
+ * the column eliminated from all other rows. An entry without constant term is no unit, and no pivot. */
 bool nh_jet_solve(const nh_jet_ring *r, size_t n, nh_residue *M, size_t count, nh_residue *b)
 {
     size_t e = r->size;

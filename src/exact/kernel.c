@@ -1,3 +1,12 @@
+/* The kernels of expressions (kernel.h). They are collected first, because the kernel of sin(x/2) depends on what
+ * else is there: a group is all uses of one family and one atom, and its unit is the common denominator of their
+ * coefficients.
+ *
+ *      uses          sin(x/2), cos(x/3), sin(x)        family sin and cos, atom x, coefficients 1/2, 1/3, 1
+ *      unit          1/6
+ *      kernels       sin(x/6), cos(x/6)                sin(x/2) = 3 sin - 4 sin^3 of x/6
+ *
+ * A use whose multiple of the unit would be too large leaves the group and gets a kernel of its own. */
 #include "exact/kernel.h"
 
 #include <math.h>

@@ -1,3 +1,7 @@
+/* The field of quotients of normal_quotient.h: its limits, and the relations of its generators.
+ *
+ * Every product adds its pairs of terms to the work of the field, and what exceeds the limits breaks the field: all
+ * results mean nothing from then on, so that callers ask once at the end and need no check at each step. */
 #include "exact/normal_quotient.h"
 
 #include <math.h>

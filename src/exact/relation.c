@@ -1,3 +1,15 @@
+/* The relation sum_j c_j e_j = 0 with c_j in Q(parameters) (relation.h): from expressions to a linear system and
+ * back.
+ *
+ *      e_j  -- rewrite_all -->  canonical arguments              inexact numbers end it here
+ *           -- collect_kernels -->  generators of one field      constants first, radicands before their roots
+ *                r = A^(1/n), s = B^(1/n) with a constant A/B:   r = (A/B)^(1/n) s
+ *           -- evaluate_all -->  N_j, polynomials                times a common denominator, which c does not feel
+ *           -- nh_relation_solve -->  c_j in the field           one equation per monomial of the variable kernels
+ *           -- emit_all -->  c_j as expressions
+ *
+ * It is tried with the expressions straightened (straighten.h), as they are, and with sines and cosines as
+ * exponentials, in this order, until the sizes stay below the bounds. */
 #include "exact/relation.h"
 
 #include <string.h>
@@ -18,6 +30,7 @@ typedef nh_relation_question question;
 
 /* ---- kernels ---- */
 
+/* Contains e parameters only? */
 static bool is_constant(const question *q, nh_ex e)
 {
     NH_LIST(symbol);
@@ -235,6 +248,7 @@ static bool rewrite_all(question *q, const nh_ex *e)
     return true;
 }
 
+/* value[j] = N_j, n of them, without denominators. */
 static bool evaluate_all(question *q)
 {
     nh_quotient_field *field = q->form.field;
@@ -245,6 +259,7 @@ static bool evaluate_all(question *q)
     return nh_relation_clear_denominators(field, q->n, q->value);
 }
 
+/* Reads, solves, and writes the coefficients as expressions. */
 static nh_relation_verdict ask(question *q, const nh_ex *e, nh_ex *coefficient)
 {
     if (!nh_relation_question_read(q, e)) return NH_RELATION_TOO_LARGE;

@@ -1,3 +1,8 @@
+/* e_(n-1) = sum_j c_j e_j in two steps: which e_j are needed, then the one relation among these.
+ *
+ * The first step is a rank modulo a prime: of power series along a random curve (relation_space.c) where there are
+ * few columns, otherwise, or where a curve says nothing, of the monomials of normal forms (relation_rows.c). The
+ * second is nh_relation_find, which proves it; the coefficients are divided by that of the last column. */
 #include "exact/relation_express.h"
 
 #include "exact/normal.h"

@@ -1,3 +1,15 @@
+/* The equations of a relation: N_j = sum_m a_mj m gives, for each monomial m in the variable kernels, one row of a_mj
+ * in K.
+ *
+ *               column  N_1     N_2     N_3         terms sorted by monomial, then column: a row is a stretch
+ *      row  x^2 y      2 m        .     -k          [first, last) of the list, and an entry a stretch of a row
+ *           x y          .      k^2      m          (nothing is stored for zeros)
+ *           1            1       -m       .
+ *
+ * The rank over K is that at a random point of the parameters modulo a prime, or larger. A point has to satisfy the
+ * relations of the constant kernels (r^n = A/B, sin^2 + cos^2 = 1): free ones get random residues, roots are taken
+ * modulo the prime, and a point without a root is given up for another. Rows enter the elimination sparsest first,
+ * because those that are chosen are the system that is solved over K afterwards. */
 #include "exact/relation_rows.h"
 
 #include <stdlib.h>
@@ -18,6 +30,7 @@ enum { most_attempts = 20000 };
 
 /* ---- equations ---- */
 
+/* The terms of N_column; each keeps the exponents of the variable generators only (`width` of them). */
 static void read_terms(nh_relation_rows *r, size_t column)
 {
     nh_quotient_field *f = r->system->field;
@@ -94,6 +107,7 @@ const nh_quotient *nh_relation_rows_entry(const nh_relation_rows *rows, size_t r
 
 /* ---- a point ---- */
 
+/* The constant part of a term at the point: its integer coefficient times powers of the constant generators. */
 static ulong term_residue(nh_relation_rows *r, nmod_t mod, const fmpz_mpoly_struct *p, slong i)
 {
     nh_quotient_field *f = r->system->field;
@@ -194,6 +208,7 @@ static void subtract(echelon *e, ulong *from, ulong factor, const ulong *row)
     if (factor) _nmod_vec_scalar_addmul_nmod(from, row, (slong)e->n, nmod_neg(factor, e->mod), e->mod);
 }
 
+/* v, `width` residues, reduced by the rows before; if something remains, it becomes a row of the echelon form. */
 static bool insert(echelon *e, ulong *v)
 {
     nh_work_add(NH_WORK_RESIDUE, (double)e->rank * (double)e->n);
@@ -208,6 +223,7 @@ static bool insert(echelon *e, ulong *v)
     return true;
 }
 
+/* For each row: how many columns of the support it has, and how many terms. */
 static void weigh(nh_relation_rows *r, const bool *support)
 {
     for (size_t i = 0; i < r->rows; i++) {

@@ -1,3 +1,13 @@
+/* The null vector of a sparse matrix over K, the field of the constant kernels (relation_solve.h), in phases:
+ *
+ *    1. rank        at random points modulo primes (relation_rows.c): no null vector, one with its support, or several
+ *    2. rows        n - 1 independent rows on the support, the sparsest
+ *    3. eliminate   fraction-free: row_i := a row_i - b row_p over gcd(a, b), each row made primitive at once
+ *    4. back        row_p c_p = -sum_j row_j c_j, from the last pivot to the first
+ *    5. polish      no denominators, no common factor, roots included
+ *    6. verify      sum_j c_j N_j = 0 in the field: all rows, not only those that were chosen
+ *
+ * What holds at a point modulo a prime is a guess only, until phase 6; that the rank is full there is a proof. */
 #include "exact/relation_solve.h"
 
 #include <string.h>
@@ -109,8 +119,10 @@ typedef struct {
     size_t used;
 } matrix;
 
+/* Row i of n entries. */
 static const nh_quotient **row_of(matrix *m, size_t i) { return m->entry + i * m->n; }
 
+/* The number of entries of row i, and of the terms of their numerators. */
 static void weight_of(matrix *m, size_t i, size_t *columns, size_t *terms)
 {
     *columns = *terms = 0;
@@ -247,6 +259,7 @@ static bool substitute_back(matrix *m, const nh_quotient **c)
 
 /* ---- the simplest multiple of the vector ---- */
 
+/* The terms of all entries, which polish makes few. */
 static double length_of(const nh_quotient_field *f, size_t n, const nh_quotient *const *q)
 {
     double length = 0;

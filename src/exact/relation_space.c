@@ -1,3 +1,17 @@
+/* All relations sum_j c_j e_ij = 0 of columns of expressions (relation_space.h).
+ *
+ *                       column j
+ *                +---------------------+
+ *     row i      | coefficients 0..N   |      along x_k(s) = random series: (rows (N + 1)) x columns residues,
+ *                | of e_ij(s)          |      rank r <= the true rank, so columns - r >= the number of relations
+ *                +---------------------+
+ *
+ *     reduced echelon form: columns with pivots p_1 .. p_r, and free ones f
+ *     for each f:   c_f = 1,  c_(p_k) = -row_k,f       which columns take part, and the residues of the coefficients
+ *
+ * For each f the coefficients are read as small fractions from their residues; where this is no relation, they are
+ * searched among functions of the parameters, from one equation: the sum of all rows, each times a symbol of its own.
+ * Both are checked in every row (`holds`). */
 #include "exact/relation_space.h"
 
 #include <string.h>
@@ -85,6 +99,7 @@ static void fill(problem *x, const nh_jet_ring *ring, const nh_residue *value)
                 x->matrix[(i * ring->size + e) * columns + j] = value[(j * rows + i) * ring->size + e];
 }
 
+/* matrix (rows (order + 1)) x columns, reduced; rank and pivots. */
 static bool find_rank(problem *x, size_t order)
 {
     size_t rows = x->q->rows, columns = x->q->columns, one = 1;
@@ -110,6 +125,7 @@ static bool find_rank(problem *x, size_t order)
 
 /* ---- one relation ---- */
 
+/* sum_j c_j e_ij = 0 in every row, as normal forms. */
 static bool holds(const problem *x, const nh_ex *c)
 {
     for (size_t i = 0; i < x->q->rows; i++) {

@@ -1,3 +1,11 @@
+/* Numbers x for which e_1 .. e_n are related, from doubles to expressions of the parameters (relation_unknown.h):
+ *
+ *    1. the values of all constant generators at the point, in doubles
+ *    2. the rows a_i(p, x) of the relation; all must vanish at the point up to rounding
+ *    3. n - 1 of them that are independent at the point, by elimination in doubles, sparse ones first
+ *    4. c(p, x): their null vector, exact
+ *    5. R_i(p, x) = sum_j a_ij c_j of the rows that were not chosen
+ *    6. x_k: the common zero of the R_i that lies at the point (common_zero.h) */
 #include "exact/relation_unknown.h"
 
 #include <math.h>
@@ -50,6 +58,7 @@ static void values_of_kernels(problem *p)
     nh_free(kernel);
 }
 
+/* The constant part of a term in doubles. */
 static double term_value(const problem *p, const nh_relation_term *t)
 {
     nh_quotient_field *f = p->system.field;
@@ -145,6 +154,7 @@ static size_t equations(problem *p, const size_t *chosen, const nh_quotient **c,
 
 /* ---- solutions as expressions ---- */
 
+/* prod_i root_i^(power_i/2), as an expression. */
 static bool root_product(problem *p, const nh_zero_root *root, nh_ex *out)
 {
     nh_dag *d = p->numbers->dag;
@@ -160,6 +170,7 @@ static bool root_product(problem *p, const nh_zero_root *root, nh_ex *out)
     return true;
 }
 
+/* (rational + factor prod_i root_i^(1/2))^(1/outer), as an expression. */
 static bool emit(problem *p, const nh_zero_root *root, nh_ex *out)
 {
     nh_dag *d = p->numbers->dag;
@@ -176,6 +187,7 @@ static bool emit(problem *p, const nh_zero_root *root, nh_ex *out)
 
 /* ---- the whole ---- */
 
+/* x[k] for each unknown, whose generator is a plain kernel. */
 static bool solve_for(problem *p, size_t count, const nh_quotient *const *equation, nh_ex *x)
 {
     size_t generator[NH_MOST_UNKNOWN];

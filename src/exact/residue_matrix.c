@@ -114,6 +114,7 @@ static void apply_pivots(elimination *x, bool above)
     }
 }
 
+/* Panel after panel; `reduced`: rows above the pivots are reduced, too. */
 static size_t eliminate(nh_prime field, size_t rows, size_t columns, size_t within, nh_residue *a, size_t *pivot,
                         bool reduced)
 {

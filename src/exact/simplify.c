@@ -1,4 +1,12 @@
-/* nh_simplify: the shortest of several forms of one expression. */
+/* nh_simplify: the shortest of several forms of one expression, by nh_complexity.
+ *
+ *      e --> form, literal (sin(a + b) stays) --> quotient: factored, multiplied out, as terms, without roots below
+ *        |                                        and with cos^2 in place of sin^2, angle by angle
+ *        +-> form, cut into atoms, where that may show more relations --> the same
+ *        +-> if nothing was shorter: its parts by themselves; then polynomial terms apart from the rest
+ *
+ * Each form is offered, and the shortest wins; e is among them, so that the result is never longer. Parts are
+ * remembered, by this call and by the graph, since the same components occur in many expressions. */
 #include "base/progress.h"
 #include "graph/dag_internal.h"
 #include "exact/print_quotient.h"
@@ -39,6 +47,7 @@ typedef struct {
 
 static nh_ex simplify(context *shared, nh_ex e);
 
+/* Takes the candidate where it is shorter than the best so far, and brings no inexact numbers. */
 static void offer(contest *c, nh_ex candidate)
 {
     if (candidate == c->last || candidate == c->best) return;
@@ -256,6 +265,7 @@ static nh_ex apart(contest *c, nh_ex e)
     return nh_add(c->dag, simplify(c->shared, rest), simplify(c->shared, plain));
 }
 
+/* The best form of e, with those of its parts. */
 static nh_ex simplify(context *shared, nh_ex e)
 {
     uint32_t known;

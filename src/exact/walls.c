@@ -111,6 +111,7 @@ static void put_branch(nh_walls *w, nh_dag *d, nh_ex e)
     if (twice) put_factors(w, d, nh_simplify_short(d, nh_powi(d, nh_named_function_rate(d, e, 0), -2), 0), false, 0);
 }
 
+/* The walls of one function call, as in the table of walls.h. */
 static void put_function(nh_walls *w, nh_dag *d, nh_ex e)
 {
     size_t n = nh_arity(d, e);

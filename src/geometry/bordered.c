@@ -1,3 +1,10 @@
+/* bordered: the tape of [K | h | F | g | f] and the solution of the saddle (base/saddle.h).
+ *
+ *     value        K        h      F       g     f
+ *     size       m x m      m    k x m     k     k           one array of doubles in this order;
+ *     layout     columns         columns                     K[s + r m] = d2L/dv^s dv^r, F[a + s k] = df^a/dv^s
+ *
+ * Of a chain of bodies h and K come from its recursion (nh_chain_bias), not from derivatives of a long L. */
 #include "geometry/bordered.h"
 
 #include <math.h>
@@ -34,6 +41,7 @@ struct nh_bordered {
     double *unit;                   /* m: size of each velocity, so that those of lengths and angles compare */
 };
 
+/* h_s = dp_s/dt without v' - dL/dq^s - Q_s with dp_s/dt = p_t + p_q v; g^a = f^a_t + f^a_q v. */
 void nh_bordered_expressions(const nh_model *model, nh_ex *K, nh_ex *h, nh_ex *F, nh_ex *g, nh_ex *f)
 {
     const nh_system *system = model->system;
@@ -176,6 +184,8 @@ bool nh_bordered_accelerations(nh_bordered *b, double t, const double *q, const 
            nh_saddle_solve(m, k, b->terms, F, h, g, acceleration, NULL, NULL, b->saddle);
 }
 
+/* Two right-hand sides with one factorisation: (h, g) gives v', and (0, f) the step to f = 0 that is least in the
+ * metric K. */
 bool nh_bordered_rates(nh_bordered *b, double t, const double *q, const double *v, double *acceleration, double *change)
 {
     size_t m = b->m, k = b->k;
@@ -223,6 +233,7 @@ bool nh_bordered_force(nh_bordered *b, double t, const double *q, const double *
     return good;
 }
 
+/* Gauss-Newton: at each step the shortest change x of the velocities, in their units, with F x = -f. */
 bool nh_bordered_project(nh_bordered *b, double t, const double *q, const bool *fixed, double *v)
 {
     enum { most_steps = 60 };

@@ -1,3 +1,18 @@
+/* closure: brackets as truncated power series modulo a prime.
+ *
+ *     take         the components, with the parameters' values, in the canonical form that has residues
+ *     evaluate     their series at a random point: value[i] is an element of ring[x_1, .., x_N] up to an order d
+ *     close_up     brackets of the generators with all that were kept, until the rank stays
+ *     growth_with  for the growth vector: the same by stages, at points modulo two primes
+ *
+ * A bracket takes a derivative, so each loses one order of its series: one of j-th depth is right up to the order d -
+ * j. Only the constant terms enter the rank.
+ *
+ *     X_1, X_2                 order d          rank at the point: constant terms of these
+ *     [X_1, X_2]               order d - 1
+ *     [X_1, [X_1, X_2]], ..    order d - 2      the order 0 ends it: `cut`, and a longer series is tried
+ *
+ * A series of a field is N series of ring->size residues, one component after the other. */
 #include "geometry/closure.h"
 
 #include <string.h>
@@ -31,6 +46,7 @@ typedef struct {
     nh_residue *frame; /* N x N series */
 } space;
 
+/* Field i of those that were kept: N series. */
 static nh_residue *member(const space *x, size_t i) { return x->frame + i * x->N * x->ring->size; }
 
 /* ---- a point ---- */
@@ -42,6 +58,8 @@ static bool is_zero_there(const space *x, nh_ex symbol)
     return false;
 }
 
+/* Series of all components at the random point of this seed: symbol k stands for c_k + x_k, c_k random or, at a
+ * special place, 0.  False where a function has no value there; then another seed is tried. */
 static bool evaluate(space *x, uint64_t seed)
 {
     uint64_t random = seed + 815;
@@ -153,6 +171,7 @@ static const char *take(space *x, const nh_ex *field, const nh_ex *function)
     return nh_jet_point_related(x->point);
 }
 
+/* The ring of series in N variables to the order given, or to the largest below it with at most `most` coefficients. */
 static nh_jet_ring *ring_of(const space *x, size_t order, size_t most)
 {
     size_t *one = nh_alloc_array(x->N + 1, sizeof *one);
@@ -163,6 +182,7 @@ static nh_jet_ring *ring_of(const space *x, size_t order, size_t most)
     return ring;
 }
 
+/* One regular point decides: the gradients of the known functions first, which say how large the rank can be. */
 static void solve(space *x, nh_closure *out)
 {
     bool good = false;
@@ -293,6 +313,8 @@ static nh_closure_growth growth_with(space *x, size_t order, size_t stages, size
     return g;
 }
 
+/* Without `stages` the order grows by 2 as long as it was what ended the growth; a special place needs stages - 1
+ * derivatives and no more. */
 static nh_closure_growth growth_of(space *x, const nh_ex *field, size_t stages)
 {
     nh_closure_growth g = {0};

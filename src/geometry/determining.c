@@ -11,6 +11,7 @@ typedef struct {
     nh_determining_equation *e;
 } writer;
 
+/* A term of the equation, unless its coefficient is zero. */
 static void add(writer *w, nh_ex coefficient, nh_determining_operator along, nh_determining_unknown of, size_t index)
 {
     coefficient = nh_simplify_short(w->o->dag, coefficient, large_length);
@@ -18,6 +19,7 @@ static void add(writer *w, nh_ex coefficient, nh_determining_operator along, nh_
     w->e->term[w->e->terms++] = (nh_determining_term){coefficient, along, w->e->direction, of, index};
 }
 
+/* X_0(e), X_l(e), Y_l(e), or e itself. */
 static nh_ex along(const nh_model *model, nh_determining_operator op, size_t l, nh_ex e)
 {
     if (op == NH_DETERMINING_X0) return nh_model_X0(model, e);

@@ -1,3 +1,14 @@
+/* distribution: the type of the constraints by identities of nu, rho and R, their integrability by the growth vector.
+ * [docs/method.md, sec. 2, (8) and (8a)]
+ *
+ *     type      affine, homogeneous, rheonomic: each an identity, by normal form, or by values at probes
+ *     growth    of the fields on the smallest space on which they live:
+ *
+ *         R does not depend on w or t, linear:    R^s_i d/dq^s                       on q          (m)
+ *         affine, or with t:                      X_0 at w = 0, and R^s_i d/dq^s     on (t, q)     (1 + m)
+ *         nonlinear:                              X_0, X_i, Y_i                      on (t, q, w)  (1 + m + n)
+ *
+ *     integrals dimension minus the last rank: as many functions of (t, q) are constant */
 #include "geometry/distribution.h"
 
 #include "exact/normal.h"
@@ -50,6 +61,7 @@ static bool is_affine(const nh_model *model)
     return affine;
 }
 
+/* nu^a_s rho^s = 0 for every a: with a velocity its multiples are allowed. */
 static bool is_homogeneous(const nh_model *model)
 {
     for (size_t a = 0; a < model->k; a++)
@@ -68,6 +80,7 @@ static nh_ex time_part(const nh_model *model, size_t a)
     return f;
 }
 
+/* Is df^a/dt not zero on the submanifold, for some a? */
 static bool is_rheonomic(const nh_model *model)
 {
     for (size_t a = 0; a < model->k; a++)
@@ -115,6 +128,7 @@ static nh_distribution_fields events(const nh_model *model)
     return f;
 }
 
+/* The growth of these fields, which are freed. */
 static nh_growth growth_of(const nh_model *model, nh_distribution_fields f, nh_growth_space space)
 {
     nh_growth g = nh_growth_of(model, f.count, f.dimension, f.symbol, f.field, 0);

@@ -1,3 +1,13 @@
+/* growth: the growth vector, where it drops, and the proof that its last rank is right. [docs/method.md, sec. 2,
+ * (8a)]
+ *
+ *     1  residue_ranks       ranks of brackets modulo two primes (closure.h): lower bounds
+ *        generic_ranks       where there are no residues: ranks by singular values at the probes
+ *     2  look_for_drops      each coordinate, and all of them, at 0: other ranks there?
+ *     3  prove_involutive    r brackets in reduced form E_i = d/dx^p(i) + .. span everything: [E_i, E_j] = 0
+ *
+ * Why 3 is a proof: [E_i, E_j] has the component 0 at every pivot p(i), so it lies in the span of the E_i only if it
+ * is 0. */
 #include "geometry/growth.h"
 
 #include <math.h>

@@ -5,13 +5,15 @@
 #include "graph/dag.h"
 #include "graph/diff.h"
 
+/* The name of the term v^j v^k: two angles, an angle and a length, two lengths. */
 static nh_inertial_part part_of(const nh_system *system, size_t j, size_t k)
 {
     bool first = system->coordinate[j].type == NH_ANGLE, second = system->coordinate[k].type == NH_ANGLE;
     return first && second ? NH_INERTIAL_CENTRIFUGAL : first || second ? NH_INERTIAL_CORIOLIS : NH_INERTIAL_FURTHER;
 }
 
-/* False where A_s - Q_s is not at most quadratic. */
+/* The parts of A_s along coordinate c: with B = d2A/dv^j dv^k, 1/2 v^j v^k B goes to the kind of (j, k), (dA/dv^j - B
+ * v^k) v^j is linear, the rest applied.  False where A_s - Q_s is not at most quadratic. */
 static bool split(const nh_submanifold *s, size_t c, nh_ex *part)
 {
     const nh_model *model = s->model;

@@ -1,3 +1,11 @@
+/* linearization: expressions once for a system, then balls for every state.
+ *
+ *     terms, derivatives       K, h, F, g, f, P and their derivatives, as expressions of t, q, v, a, mu
+ *     nh_linear_start          a state on the constraints            (linearization_state.c)
+ *     nh_linear_matrices       R, S, T, M, C, N, A at this state     (linearization_matrices.c)
+ *     close_equations          coordinates on which nothing depends are left out
+ *     nh_ball_spectrum         eigenvalues of what is left
+ *     changes                  is the matrix the same along the motion? */
 #include "geometry/linearization.h"
 
 #include <float.h>
@@ -16,6 +24,7 @@
 
 static nh_ex *take(nh_linearization *l, size_t count) { return nh_arena_alloc(l->arena, (count + 1) * sizeof(nh_ex)); }
 
+/* out[i*m + j] = d e_i/d symbol_j. */
 static void jacobian(nh_linearization *l, size_t rows, const nh_ex *e, const nh_ex *symbol, nh_ex *out)
 {
     for (size_t i = 0; i < rows; i++) nh_gradient(l->dag, e[i], l->m, symbol, out + i * l->m);
@@ -27,6 +36,8 @@ static void transpose(size_t rows, size_t columns, const nh_ex *by_columns, nh_e
         for (size_t j = 0; j < columns; j++) out[i * columns + j] = by_columns[i + j * rows];
 }
 
+/* K, F (transposed: here row by row), h, g, f of geometry/bordered.h, and P, P_q of the constraints between
+ * positions. */
 static void terms(nh_linearization *l)
 {
     size_t m = l->m, k = l->k;
@@ -44,6 +55,8 @@ static void terms(nh_linearization *l)
     jacobian(l, l->p, l->P, l->q, l->P_q);
 }
 
+/* The balance K a + h + F^T mu (m) and the differentiated constraints F a + g (k), with a and mu as symbols of their
+ * own: d_q, d_v, c_q, c_v are derivatives at constant a and mu. */
 static void derivatives(nh_linearization *l)
 {
     nh_dag *d = l->dag;
@@ -116,6 +129,7 @@ static void close_equations(const nh_linear_work *w, nh_linear_equations *e)
     for (size_t i = 0; i < e->s + e->n; i++) e->size += e->closed[i];
 }
 
+/* The rows and columns of A that are left, size x size. */
 static void closed_matrix(const nh_linear_work *w, const nh_linear_equations *e, arb_mat_t out)
 {
     size_t row = 0;
@@ -135,6 +149,7 @@ static arb_srcptr rate(const nh_linear_work *w, const nh_linear_equations *e, si
     return i < e->s ? w->v + e->position[i] : w->a + e->velocity[i - e->s];
 }
 
+/* The largest rate among (x, w) that are left: 0 of a steady motion. */
 static double largest_rate(const nh_linear_work *w, const nh_linear_equations *e)
 {
     double largest = 0;
@@ -183,6 +198,7 @@ static bool changed(nh_linear_work *w, const nh_linear_equations *e, const arb_m
     return other;
 }
 
+/* Compares with the states of the motion at two other times, of both signs and without a common period. */
 static bool changes(nh_linear_work *w, const nh_linear_equations *e, const arb_mat_t at_first)
 {
     static const double times[] = {0.375, -1.125};
@@ -204,6 +220,7 @@ static bool changes(nh_linear_work *w, const nh_linear_equations *e, const arb_m
 
 static double *doubles(size_t count) { return nh_alloc_array(count + 1, sizeof(double)); }
 
+/* The mid-points of A, row by row, and what balls and rounding to double add to the error. */
 static double *numbers(nh_linear_equations *e, const arb_mat_t A)
 {
     size_t rows = (size_t)arb_mat_nrows(A), columns = (size_t)arb_mat_ncols(A);
@@ -240,6 +257,8 @@ static void fill(const nh_linear_work *w, nh_linear_equations *e)
     e->eigenvalue = nh_alloc_array(e->s + e->n + 1, sizeof *e->eigenvalue);
 }
 
+/* What is closed, its eigenvalues, whether the motion is steady, and whether the answer is the same at its other
+ * states. */
 static void decide(nh_linear_work *w, nh_linear_equations *e)
 {
     arb_mat_t closed;
@@ -277,6 +296,7 @@ static void work_clear(nh_linear_work *w)
     nh_ball_free(w->ball);
 }
 
+/* The bits follow from the size of the matrix whose eigenvalues are enclosed. */
 nh_linear_equations *nh_linearization_at(nh_linearization *l, const double *parameter, const nh_linear_state *state,
                                          nh_error *error)
 {

@@ -1,4 +1,12 @@
-/* linearization_matrices: the formulas of linearization.h, in balls. */
+/* linearization_matrices: the formulas of linearization.h, in balls.
+ *
+ *     accelerations    [K F^T; F 0] (a; mu) = -(h; g)                        a (m), mu (k)
+ *     velocities       [ F | B | c_q | c_v ]  k x 4m, Gauss and Jordan in the columns of F
+ *                      -> dependent columns become units:  dv_dep = -F' dw - B' dq,
+ *                         dv'_dep = -F' dw' - c_q' dq - c_v' dv            R, S (m x n, m x m), E, H
+ *     positions        the rows P_q and c^T F (c^T B = 0) in dq              T (m x s)
+ *     forces           M, C, N
+ *     state_matrix     A = [ (S T)_x  R_x ;  -M^-1 N  -M^-1 C ]               (s + n) x (s + n) */
 #include <math.h>
 #include <string.h>
 
@@ -46,6 +54,7 @@ static double best_row(const arb_mat_t A, size_t columns, size_t rank, size_t j,
     return best;
 }
 
+/* Row `row` is divided by its entry in column j, and column j is cleared in all others. */
 static void clear_column(arb_mat_t A, size_t row, size_t j, long bits)
 {
     size_t width = (size_t)arb_mat_ncols(A);
@@ -61,6 +70,7 @@ static void clear_column(arb_mat_t A, size_t row, size_t j, long bits)
     arb_clear(factor);
 }
 
+/* Two passes: first the columns with a pivot above a thousandth of its row, then those with a small one. */
 size_t nh_linear_eliminate(arb_mat_t A, size_t columns, const size_t *order, size_t *pivot, long bits)
 {
     static const double small_pivot = 1e-3;

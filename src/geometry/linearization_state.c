@@ -33,6 +33,7 @@ void nh_linear_order(const nh_linearization *l, const bool *last, size_t *order)
         }
 }
 
+/* Half of the bits: Newton's steps double the right ones, so the next step would reach all. */
 static double converged(const nh_linear_work *w) { return ldexp(1, -(int)(w->bits / 2)); }
 
 /* Adds a step, and drops the radii.  Returns its size relative to 1 + |x|. */
@@ -207,6 +208,8 @@ static const nh_constraint *position_constraint(const nh_system *system, size_t 
 /* Typed numbers may be rounded: such a step is no projection. */
 static const double rounding = 1e-8;
 
+/* First with those positions fixed that were given (with `project`), then with all free; a step beyond rounding is an
+ * error, unless `project`. */
 static bool start_positions(nh_linear_work *w, const nh_linear_state *state, nh_error *error)
 {
     const nh_linearization *l = w->l;
@@ -233,6 +236,8 @@ static bool start_positions(nh_linear_work *w, const nh_linear_state *state, nh_
     return good;
 }
 
+/* 1. The velocities that were not given take up the constraints.  2. Among these, the least kinetic energy.  3. Where
+ * that does not suffice, all move: by rounding, or with `project`. */
 static bool start_velocities(nh_linear_work *w, const nh_linear_state *state, nh_error *error)
 {
     const nh_linearization *l = w->l;

@@ -1,3 +1,11 @@
+/* model: the geometry in the order of docs/method.md, sec. 2.  A formula is made in the graph and simplified at once.
+ *
+ *     slopes_of        dL/dq, dL/dv of the Lagrangian as it is written, in (t, q, v)
+ *     momenta          Lbar, p_s, E, R^s_i, pbar_i: composed with the chart, in (t, q, w)             (1), (2), (10)
+ *     mass_matrix      M_ij; refused where it is singular (model_regular.c)                           (5)
+ *     inertial_forces  of chains of bodies only: dL/dq - X_0(p) by recursion instead of derivatives
+ *     matrices         A_i and G_ij                                                                   (5)
+ *     accelerations    a = M^-1 A by LU in the graph;  multipliers: c_s, mu_a, the reaction           (6), (7) */
 #include "geometry/model.h"
 
 #include <math.h>
@@ -144,6 +152,7 @@ const nh_chain *nh_model_chain(const nh_model *model, nh_ex *rest)
     return c;
 }
 
+/* Not composed.  A short L is differentiated along the frame, a long one by one sweep over its graph (nh_gradient). */
 static slopes slopes_of(const nh_model *model)
 {
     nh_dag *d = model->dag;

@@ -1,5 +1,14 @@
 /* model: the geometry of a constrained system on its constraint submanifold.
  *
+ *      (t, q, v)       all states, dimension 1 + 2m;      L, forces Q_s, constraints f^a
+ *          ^
+ *          |  v = rho(t, q, w)                            the chart, system/embedding.h
+ *          |
+ *      (t, q, w)       the constraint submanifold, dimension 1 + m + n, n = m - k;    X_0, X_i, Y_i and all below
+ *          |
+ *          v
+ *       (t, q)         places and times
+ *
  * With v = rho(t,q,w), R = d rho/dw and everything composed with the embedding [docs/method.md, sec. 2]:
  *
  *     p_s  = dL/dv^s                         momenta
@@ -12,8 +21,8 @@
  *     Gamma = X_0 + a^i Y_i,  M a = A                        constraint semispray [CechMusilova2014, eq. 21]
  *     c_s  = dL/dq^s + Q_s - Gamma(p_s) = mu_a df^a/dv^s     Chetaev multipliers   [CechMusilova2014, eq. 10]
  *
- * A model is constant after creation, but for G.  Threads share it: one that needs further expressions makes them in a
- * copy (nh_model_copy). */
+ * A model is constant after creation, but for G.  Threads share it: one that needs further expressions makes them in
+ * a copy (nh_model_copy). */
 #ifndef NH_MODEL_H
 #define NH_MODEL_H
 

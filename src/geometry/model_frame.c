@@ -3,6 +3,9 @@
 
 #include "graph/diff.h"
 
+/* The orientation to which coordinate a belongs, where the model has a frame; else NULL.  Of an orientation the three
+ * coordinates first, first + 1, first + 2 are its parameters s, and its rates are three angular velocities.
+ * [docs/method.md, (8b)] */
 static const nh_orientation *turned(const nh_model *model, size_t a)
 {
     return model->framed ? nh_orientation_of(model->system, a) : NULL;
@@ -42,6 +45,7 @@ nh_ex nh_frame_compose(const nh_model *model, nh_ex e)
     return e;
 }
 
+/* A covector of (q), m components c_s, along e_a: e_a^s = map[s][a], so that s' = map (angular velocity). */
 nh_ex nh_frame_along(const nh_model *model, size_t a, const nh_ex *c)
 {
     const nh_orientation *r = turned(model, a);
@@ -52,6 +56,7 @@ nh_ex nh_frame_along(const nh_model *model, size_t a, const nh_ex *c)
     return sum;
 }
 
+/* Back from the frame to coordinates: beta^k_s = d(rate k)/dv^s, because the rates are linear in v. */
 void nh_frame_covector(const nh_model *model, const nh_ex *c, nh_ex *out)
 {
     for (size_t s = 0; s < model->m; s++) {

@@ -198,6 +198,7 @@ static void multiply(const nh_model *model, const double *value, double *M)
     nh_free(KR);
 }
 
+/* M at every probe of the chart where it is finite: of the model, or R^T K R where the model has none yet. */
 static masses masses_of(const nh_model *model)
 {
     size_t n = model->n, total = model->M ? n * n : model->m * (model->m + n);

@@ -9,6 +9,8 @@
 #include "graph/dag.h"
 #include "graph/node.h"
 
+/* All pairs of radicands in L are tried: their product, simplified, has to be y^2 (times 1), and y must have one sign
+ * at the probes. */
 void nh_model_pair_roots(nh_model *model)
 {
     enum { most = 8, most_pairs = most * (most - 1) / 2 };
@@ -28,6 +30,7 @@ void nh_model_pair_roots(nh_model *model)
     model->pair = pair;
 }
 
+/* The second root of each pair becomes sign y/(the first root): then the normal form knows of one root only. */
 nh_ex nh_model_paired_roots(const nh_model *model, nh_ex e)
 {
     nh_dag *d = model->dag;
@@ -38,6 +41,8 @@ nh_ex nh_model_paired_roots(const nh_model *model, nh_ex e)
     return e;
 }
 
+/* The sign of e by ball arithmetic at the first probe, or with every symbol in [-DBL_MAX/4, DBL_MAX/4]: rigorous
+ * where it is not 0. */
 static int sign_where(const nh_model *model, nh_ex e, bool everywhere)
 {
     enum { bits = 400 };

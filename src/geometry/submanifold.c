@@ -67,6 +67,9 @@ static void plain_forms(nh_arena *arena, nh_submanifold *s)
     nh_lu_free(lu);
 }
 
+/* eps'_l(Lbar) = X_l(Lbar) - X_0(pbar_l) and Y_r(pbar_l), (n and n x n); of a chart of coordinate velocities also
+ * g^a_l = R^y_l, eps'_l(g^a) = X_l(g^a) - X_0(g^a_l) and g^a_lr, y the coordinate of the dependent velocity a.
+ * [CechMusilova2014, eq. 8] */
 static void euler_expressions(nh_submanifold *s, const size_t *dependent)
 {
     const nh_model *model = s->model;
@@ -85,6 +88,7 @@ static void euler_expressions(nh_submanifold *s, const size_t *dependent)
     }
 }
 
+/* Bbar = -M, so its inverse is n solutions of M x = -e_j. */
 static void inverse(nh_arena *arena, nh_submanifold *s)
 {
     const nh_model *model = s->model;

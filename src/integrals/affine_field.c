@@ -1,3 +1,14 @@
+/* affine_field: values of zeta = M^-T Y(Phi) at random points in ball arithmetic, then least squares in one basis of
+ * words after another; the first whose coefficients are short fractions is taken.
+ *
+ *     fit             1, t, q, t q, centres of mass
+ *     fit_with_time   these, and -tau w^i
+ *     fit             these, and the ten words of a turn of two angles, for every pair
+ *     fit_still       polynomials in the positions as the system shows them, without t
+ *     fit_written     all that the system shows
+ *     fit_quadratic   1, q, q q; coefficients as products of powers of parameters
+ *
+ * Matrices: row (points x words) and value (points x n) are column by column. */
 #include "integrals/affine_field.h"
 
 #include <math.h>

@@ -21,8 +21,7 @@ size_t nh_affine_field_words(const nh_model *model, size_t a, size_t b, nh_ex ou
 
 /* zeta (n) with short fractions as coefficients, by its values at points, for the parameters' given values; in
  * quadratic ones times powers of parameters.  Of an energy in coordinates that move it is affine but for -tau w.  A
- * guess:
- * the equation above and that of Noether remain to be checked.  False: there is none. */
+ * guess: the equation above and that of Noether remain to be checked.  False: there is none. */
 bool nh_affine_field(const nh_model *model, nh_ex phi, const nh_options *options, nh_ex *zeta);
 
 /* Where all masses are along a coordinate, without bodies being named.

@@ -1,3 +1,17 @@
+/* ansatz: families become columns (products of factors) and terms (what is printed), with the matrix between them.
+ *
+ *     part     one family: columns, terms, map (terms x columns, column-major)
+ *     product  of two parts: every column times every column, every term times every term; map = Kronecker product
+ *     join     parts side by side; a column or term that two of them have is taken once
+ *
+ *                        columns of part 1   columns of part 2
+ *                      +-------------------+-------------------+
+ *         terms of 1   |      map 1        |                   |         to_term: rows of terms that both
+ *                      +-------------------+      map 2        |         parts have belong to both blocks
+ *         terms of 2   |                   |                   |
+ *                      +-------------------+-------------------+
+ *
+ * [docs/method.md, sec. 4, "Ansatz"] */
 #include "integrals/ansatz.h"
 
 #include <math.h>
@@ -26,6 +40,7 @@ typedef struct {
 
 static void *take(builder *b, size_t count, size_t size) { return nh_arena_alloc(b->a->arena, (count + 1) * size); }
 
+/* The number of the factor e, which is added where it is new. */
 static size_t factor_of(builder *b, nh_ex e)
 {
     nh_ansatz *a = b->a;
@@ -68,7 +83,8 @@ static void range_of(const builder *b, nh_ex e, double *middle, double *half)
     if (fabs(*middle) < 0.25 * *half) *middle = 0; /* nearly centred: keep parity, and round numbers */
 }
 
-/* T_0 .. T_degree of s = (e - middle)/half as expressions, and their coefficients in powers of e. */
+/* T_0 .. T_degree of s = (e - middle)/half as expressions, and their coefficients in powers of e, by T_k = 2 s
+ * T_(k-1) - T_(k-2): power[i + k (degree + 1)] belongs to e^i in T_k. [Trefethen2013] */
 static void chebyshev(builder *b, nh_ex e, size_t degree, nh_ex *T, double *power /* (degree+1)^2, column k: T_k */)
 {
     nh_dag *d = b->a->dag;
@@ -94,6 +110,7 @@ static void chebyshev(builder *b, nh_ex e, size_t degree, nh_ex *T, double *powe
 
 /* ---- polynomial: all products of total degree <= degree ---- */
 
+/* The next of all exponents x[0..n-1] with a sum up to the degree, like a counter with carry; 0 after the last one. */
 static size_t next_exponents(size_t n, size_t degree, size_t *x)
 {
     size_t total = 0;
@@ -109,6 +126,7 @@ static size_t next_exponents(size_t n, size_t degree, size_t *x)
     return 0;
 }
 
+/* A column is prod_i T_(x_i)(in_i), a term prod_i in_i^(x_i), over the same exponents x in the same order. */
 static bool build_polynomial(builder *b, const nh_family *f, part *p)
 {
     nh_dag *d = b->a->dag;
@@ -145,6 +163,7 @@ static bool build_polynomial(builder *b, const nh_family *f, part *p)
 
 /* ---- fourier, chebyshev, terms ---- */
 
+/* n terms as they are: a term is its own column, of one factor (none of the number 1), and the map is the identity. */
 static bool build_terms(builder *b, size_t n, const nh_ex *term, part *p)
 {
     if (!part_alloc(b, p, n, n)) return false;
@@ -194,6 +213,7 @@ static bool build_chebyshev(builder *b, const nh_family *f, part *p)
 
 /* ---- products and sums of families ---- */
 
+/* map[(ti, tj), (ci, cj)] = map_x[ti, ci] map_y[tj, cj]; index (i, j) stands at i * (number of j) + j. */
 static bool multiply_parts(builder *b, const part *x, const part *y, part *p)
 {
     if (!part_alloc(b, p, x->columns * y->columns, x->terms * y->terms)) return false;
@@ -216,6 +236,7 @@ static bool multiply_parts(builder *b, const part *x, const part *y, part *p)
     return true;
 }
 
+/* A family of the table, explicit terms, or the product of its parts, one after the other. */
 static bool build(builder *b, const nh_family *f, part *p)
 {
     switch (f->kind) {

@@ -1,3 +1,12 @@
+/* basis: which columns of a sampled matrix are independent.
+ *
+ *     equilibrate          columns of norm 1; constant ones are marked by scale 0 [VanDerSluis1969]
+ *     already_independent  a well conditioned triangle is taken as it is
+ *     keep_independent     otherwise Gram-Schmidt, twice, column by column:
+ *                             rest |(1 - Q Q^T) b| < rank          dependent on those before it: dropped
+ *                             1/|row i of R^-1| < rank            column i lies in the span of all others: dropped
+ *
+ * [GolubVanLoan2013] */
 #include "integrals/basis.h"
 
 #include <math.h>

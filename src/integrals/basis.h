@@ -21,8 +21,8 @@ typedef struct {
     double trivial; /* a column whose variation is below trivial * its size is constant (1e-11) */
 } nh_nullspace_options;
 
-/* Columns that are independent over the samples, chosen by pivoted QR of the equilibrated matrix: B D^-1 P = Q R with
- * D = diag(scale). */
+/* Columns that are independent over the samples, chosen by Gram-Schmidt of the equilibrated matrix in the caller's
+ * order: B D^-1 P = Q R with D = diag(scale) and P the columns that are kept. [VanDerSluis1969] */
 typedef struct {
     size_t count;   /* independent columns */
     size_t *column; /* their numbers, ascending: of dependent columns the first ones stay */

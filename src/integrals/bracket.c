@@ -12,6 +12,8 @@ enum { large_length = 3000 };
 static nh_ex tidy(const nh_model *model, nh_ex e) { return nh_simplify_short(model->dag, e, large_length); }
 static nh_ex *take(nh_arena *arena, size_t n) { return nh_arena_alloc(arena, (n + 1) * sizeof(nh_ex)); }
 
+/* F_a = V_a(Phi) + Omega(Z, V_a), and i_[Gamma,Z] phi^a from the bracket's components; 0 where it is known to lie
+ * inside. */
 static void forms(nh_arena *arena, const nh_submanifold *s, const nh_symmetry *z, nh_bracket *b)
 {
     const nh_model *model = s->model;

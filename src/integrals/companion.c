@@ -1,3 +1,9 @@
+/* companion: c and z of one exact relation. [docs/method.md, (15c)]
+ *
+ *     find_functions           zeta = M^-1 Y(Phi) at the parameters' values; its terms w_a and numbers z_a
+ *     identities               n + a functions, linear in fresh symbols y_0 .. y_n that keep the equations apart
+ *     nh_fixed_relation        the relation among these functions, over the field of the parameters
+ *     without_common_factor    c without the factor that all c_k share */
 #include "integrals/companion.h"
 
 #include <math.h>
@@ -22,6 +28,7 @@ typedef struct {
     double z[most_functions];
 } functions;
 
+/* A term of component i, as number times function; false where it is a sum, or there are too many. */
 static bool add_function(nh_dag *d, functions *f, size_t component, nh_ex term)
 {
     nh_kind kind = nh_kind_of(d, term);

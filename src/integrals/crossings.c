@@ -1,3 +1,15 @@
+/* crossings: how a crossing is found, and when it is kept.
+ *
+ *     follow          along a line or a step of a motion: g changes its sign between two places (Brent's method), or
+ *                     its slope does where g touches 0
+ *     keep            six points of (t, q, w, u), at the distances 2^-12, 2^-24, 2^-36 on both sides:
+ *
+ *                         x----------x------x--|--x------x----------x         g = 0 at |
+ *                      point[0][0]    [1]   [2]  [1][2]   [1]   point[1][0]
+ *     is_reached      do motions arrive: does Gamma(g)/|grad g| keep its sign and size towards the wall?
+ *     is_open_to      does a way lead there from the sampling box?
+ *
+ * First come motions, then lines in the chart, then lines in (t, q, v). */
 #include "integrals/crossings.h"
 
 #include <gsl/gsl_errno.h>
@@ -144,6 +156,7 @@ static bool passage_of(const finder *x, const double *slope, const double *rate,
     return size > 0 && isfinite(p->speed);
 }
 
+/* The same at z, by ball arithmetic. */
 static bool passage_at(finder *x, nh_ex g, double *z, passage *p)
 {
     double radius, *slope = x->passing, *rate = slope + x->explicit_width;
@@ -252,6 +265,8 @@ static bool is_open_to(finder *x, const double *to)
     return open;
 }
 
+/* Keeps the change of sign of wall i at s: points at all depths on both sides, if the place is wanted and motions
+ * reach it. */
 static void keep(finder *x, size_t i, double s, bool touches)
 {
     uint64_t key = part_of(x, i, s);
@@ -290,6 +305,7 @@ static void look_between(finder *x, size_t i, const double *s, const double *f, 
     }
 }
 
+/* Place k of a line: 0 in the middle, to both sides in a geometric sequence. */
 static double grid_point(size_t k)
 {
     if (k == steps_out) return 0;
@@ -315,6 +331,7 @@ static void follow(finder *x, size_t count, const double *place)
     }
 }
 
+/* All grid places of the line. */
 static void follow_line(finder *x)
 {
     double place[grid];
@@ -365,6 +382,7 @@ static void follow_motion(finder *x, double way)
     nh_free(begin);
 }
 
+/* One tape per wall of g and its derivatives by (t, q, w), and one of Gamma. */
 static void create(finder *x)
 {
     const nh_model *model = x->o;

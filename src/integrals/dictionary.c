@@ -1,3 +1,11 @@
+/* dictionary: one walk over L, forces, constraints and rho, in which every node is visited once.
+ *
+ *     forces, constraints    walk, with integrals of 1/(b + c q)
+ *     L, rho                 walk: forms, atoms, waves
+ *     M                      integrals of 1/M, roots of its diagonal and determinant, frame M = L D L^T
+ *     dL/dv                  momenta
+ *     L at v = 0             terms of the potential, with derivatives by angles
+ *     a                      shapes, lengths and waves: the coordinates on which the equations depend */
 #include "integrals/dictionary.h"
 
 #include <stdlib.h>
@@ -149,6 +157,7 @@ static bool plain_wave(const nh_model *model, nh_ex e)
     return nh_kind_of(model->dag, angle) == NH_SYMBOL && angle != model->system->t;
 }
 
+/* A coordinate inside of a sine, cosine or tangent. */
 static void add_wave(harvester *h, nh_ex e)
 {
     nh_function f = nh_function_of(h->o->dag, e);
@@ -193,6 +202,8 @@ static void add_absolutes(harvester *h, nh_ex e)
     if (nh_depends(d, u, h->o->system->t)) add(h, &h->out->atoms, h->out->atom, nh_mul(d, nh_powi(d, u, 2), size));
 }
 
+/* Sums linear in velocities are forms, functions of position atoms; the children of a product enter with their
+ * powers. */
 static void walk(harvester *h, nh_ex e)
 {
     nh_dag *d = h->o->dag;
@@ -278,6 +289,7 @@ static nh_ex even_root(const nh_model *model, nh_ex e)
     return root;
 }
 
+/* The diagonal entry that is shortest, not zero and not done; n: there is none. */
 static size_t simplest_pivot(const nh_model *model, const nh_ex *M, const bool *done)
 {
     size_t best = model->n, least = SIZE_MAX;
@@ -417,6 +429,8 @@ static bool occurs_plainly(harvester *h, nh_ex e, nh_ex q)
     return result;
 }
 
+/* A coordinate on which some a^i depends is a shape; a length where it stands outside of sines, a wave where it is an
+ * angle. */
 static void shapes(harvester *h)
 {
     nh_model *model = h->o;

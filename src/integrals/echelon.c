@@ -1,3 +1,9 @@
+/* echelon: readable vectors of a null space. [docs/method.md, sec. 4, "Canonical form"]
+ *
+ *     make_table     vectors in terms, each row times the size of its term over the samples: terms x dimension
+ *     reduce         reduced echelon form; the most complex terms become pivots, so that the rest is simple
+ *     candidate_of   the terms above the option `support`, the pivot with coefficient 1
+ *     refine         the support is fitted alone; where it does not satisfy the equations, smaller terms come back */
 #include "integrals/echelon.h"
 
 #include <float.h>
@@ -99,6 +105,7 @@ static size_t best_vector(const table *t, size_t term, size_t done, double *larg
     return best;
 }
 
+/* Exchanges the vectors a and b. */
 static void swap_vectors(table *t, size_t a, size_t b)
 {
     for (size_t j = 0; j < t->terms && a != b; j++) {
@@ -108,6 +115,7 @@ static void swap_vectors(table *t, size_t a, size_t b)
     }
 }
 
+/* Vector p becomes 1 in this row, all others 0. */
 static void clear_row(table *t, size_t term, size_t pivot_vector)
 {
     double *p = t->v + pivot_vector * t->terms, scale = p[term];
@@ -147,6 +155,7 @@ static void reduce(table *t, double small)
     t->dimension = done;
 }
 
+/* The null vectors in terms instead of columns, each entry times the size of its term, reduced: terms x count. */
 static table make_table(const nh_model *model, const nh_points *points, const nh_ansatz *a, const nh_nullspace *n,
                         size_t count, size_t pivots, const nh_ex *pivot, double small)
 {
@@ -200,6 +209,8 @@ static void select_support(nh_candidate *c, double cut)
     for (size_t j = 0; j < c->count; j++) c->coefficient[j] /= unit;
 }
 
+/* Row k of the table as a candidate: all its terms, the simplest first, and those of them that make it up
+ * (select_support). */
 static nh_candidate candidate_of(nh_candidates *list, const nh_ansatz *a, const table *t, size_t k, double cut,
                                  double accepted)
 {

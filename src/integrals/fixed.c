@@ -39,6 +39,7 @@ nh_ex nh_fixed_values(const nh_model *model, const nh_ex *fixed, nh_ex e)
     return e;
 }
 
+/* Every parameter replaced by itself. */
 static nh_ex *none_fixed(const nh_model *model)
 {
     size_t all = model->system->parameters;
@@ -126,6 +127,7 @@ static nh_ex *by_values(const tie_list *l)
     return e;
 }
 
+/* Adds the list e, unless it is there. */
 static void propose_tie(tie_list *l, const nh_ex *e)
 {
     size_t all = l->o->system->parameters;
@@ -151,11 +153,13 @@ static void tie_equal(tie_list *l, size_t only)
     if (any) propose_tie(l, e);
 }
 
+/* Is r a fraction with a numerator and denominator up to `most`, and not 0? */
 static bool is_simple(nh_num r, int64_t most)
 {
     return nh_num_short(r) && llabs((long long)r.p) <= most && r.q <= most && r.p != 0;
 }
 
+/* Simple multiples of the parameter with the smallest value. */
 static void tie_multiples(tie_list *l)
 {
     nh_ex *e = by_values(l);
@@ -213,6 +217,7 @@ static void try_monomial(const tie_list *l, size_t i, const int *power, monomial
     keep_monomial(best, count, cost + (nh_num_is(ratio, 1) ? 0 : for_ratio), e);
 }
 
+/* p_i = r times at most three powers of the others, with exponents up to 2 in size; the cheapest are proposed. */
 static void tie_monomials(tie_list *l)
 {
     monomial best[most_monomials];

@@ -46,6 +46,7 @@ static bool fix_signs(problem *p, nh_ex *e)
     return !p->sides.left_out && !has_velocities(p->o, *e) && !nh_depends(d, *e, p->o->system->t);
 }
 
+/* dQ_i/dq^j = dQ_j/dq^i for all pairs? */
 static bool is_closed(const problem *p)
 {
     nh_dag *d = p->o->dag;
@@ -109,6 +110,7 @@ static nh_ex integrate(problem *p, int step)
     return found ? nh_walls_signs(&p->sides, U) : 0;
 }
 
+/* In the order of the file, or else in the opposite one: one of them may have simpler integrals. */
 static nh_ex potential(problem *p)
 {
     if (!is_closed(p)) return 0;

@@ -1,3 +1,16 @@
+/* function_series: from one point of the variable s to its whole interval. [docs/method.md, sec. 4, "Coefficients
+ * without closed form"]
+ *
+ *     nh_series_open      words, their rates and Gamma(s), with the parameters' values; the space near the middle of s
+ *     reach               how far the solutions can be continued: exact/ball_ode.h, interval by interval
+ *     fit                 Chebyshev coefficients of every f_i, the degree doubled until the last quarter is rounding
+ *     hold_out            the rates at points that were not used: the certificate
+ *
+ *         begin      low                    middle                 high        end
+ *           |---------[======================x======================]----------|
+ *                      the series;  shortened where it would need too high a degree
+ *
+ * A current k is words x (degree + 1) coefficients, one word after the other. [Trefethen2013, ch. 8] */
 #include "integrals/function_series.h"
 
 #include <math.h>
@@ -32,6 +45,7 @@ struct nh_series_search {
     nh_ex *word, *value, *slope, variable_slope; /* value, slope: with the parameters' values */
 };
 
+/* The box of the thin model: s - half .. s + half along the variable, unchanged along the others. */
 static void stand_at(nh_series_search *x, double s, double half)
 {
     x->low[x->at] = s - half;
@@ -102,6 +116,7 @@ size_t nh_series_words(const nh_series_search *x) { return nh_ball_ode_words(x->
 
 /* ---- near the middle ---- */
 
+/* Horner's scheme in s - middle, with the Taylor coefficients of the first interval. */
 nh_ex nh_series_near(const nh_series_search *x, size_t k)
 {
     nh_dag *d = x->o->dag;

@@ -5,8 +5,8 @@
  * on the whole submanifold.  The words b_i are functions of the rest (and of s).  The f_i are found with many digits
  * [ball_ode.h] in an interval of s and given there as Chebyshev series in doubles; beyond the interval they say
  * nothing. */
-#ifndef NH_NOETHER_SERIES_H
-#define NH_NOETHER_SERIES_H
+#ifndef NH_FUNCTION_SERIES_H
+#define NH_FUNCTION_SERIES_H
 
 #include "base/option.h"
 #include "geometry/model.h"

@@ -1,3 +1,10 @@
+/* named_coefficients: from words to currents with named functions. [docs/method.md, sec. 10, (31), (32)]
+ *
+ *     nh_named_blocks    g' = A g, f = T g                                    (named_system.h)
+ *     find_equation      y = g_j:  (y, y', .., y^(n))^T = V g, V_0 = e_j, V_(r+1) = V_r' + V_r A; Cramer's rule gives c
+ *     find_root          order 3: is y = u v?  P = p/3, Q = (q - P' + 2 P^2)/4, and r must be 2 Q' - 4 P Q
+ *     nh_named_match     u with a name, in s or another variable              (named_variable.h, named_match.h)
+ *     keep_current       the other g from y, y', .. by Cramer's rule; Phi = sum_i f_i b_i, kept where Gamma(Phi) = 0 */
 #include "integrals/named_coefficients.h"
 
 #include <math.h>
@@ -66,6 +73,7 @@ static double typical_value(void *context, nh_ex e)
 
 static nh_ex shortened(const seeker *x, nh_ex e) { return nh_simplify_short(x->d, e, 0); }
 
+/* sum_i T_ij b_i: what g_j is multiplied by in Phi. */
 static nh_ex lead_of(const seeker *x, const nh_named_block *b, size_t j)
 {
     nh_ex lead = nh_int(x->d, 0);
@@ -117,6 +125,7 @@ static void find_root(const seeker *x, candidate *e)
     e->tidy = (nh_named_equation){x->s, nh_named_tidy(d, P, x->s), nh_named_tidy(d, Q, x->s), x->s};
 }
 
+/* The equation of unknown y of this block, and how long it is. */
 static bool make_candidate(const seeker *x, const nh_named_block *b, size_t y, candidate *e)
 {
     nh_dag *d = x->d;
@@ -228,6 +237,7 @@ typedef struct {
     const char *text;
 } choice;
 
+/* The currents by the equation of unknown y, where they are more, or shorter, than those of the choice so far. */
 static void try_unknown(seeker *x, const nh_named_block *b, size_t y, choice *c)
 {
     candidate e;
@@ -239,6 +249,7 @@ static void try_unknown(seeker *x, const nh_named_block *b, size_t y, choice *c)
     c->text = text_of(x, &e);
 }
 
+/* The currents of the best equation; where there are none, the shortest equation as a text. */
 static void take_choice(seeker *x, const choice *c)
 {
     if (!c->best.count && !x->open) x->open = c->text;

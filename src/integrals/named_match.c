@@ -1,3 +1,9 @@
+/* named_match: which equation is it? [docs/method.md, sec. 10, (31a)]
+ *
+ *     add_poles       the zeros of denominators of P and Q: real points, and a conjugate pair
+ *     three_points    three regular singular points, infinity among them or regular: Gauss's function
+ *     conjugate       a pair, moved to +-i: Riemann's equation in real form, elementary where b = 0, c = l (l + 1)
+ *     confluent       at most one point, moved to 0: u = g v, v'' = R v: powers, Bessel, Airy, Kummer */
 #include "integrals/named_coefficients.h"
 
 #include <math.h>
@@ -79,6 +85,7 @@ static bool add_point(matcher *m, points *s, nh_ex at)
     return true;
 }
 
+/* A second pair that is another one ends the match. */
 static bool add_pair(matcher *m, points *s, nh_ex middle, nh_ex height)
 {
     if (s->pair)
@@ -206,6 +213,7 @@ static bool around(matcher *m, const singular *p0, const singular *p1, const sin
     return true;
 }
 
+/* Two solutions around p0 and p1, where the variable lies between them; the third point is each in turn. */
 static size_t three_points(matcher *m, points *s, nh_ex out[2])
 {
     s->of[s->count] = (singular){.infinite = true};
@@ -352,6 +360,7 @@ static void complete_square(matcher *m, nh_ex R)
     else if (!nh_is_zero(d, c[1])) move(m, simple(d, nh_neg(d, over(m, c[0], c[1]))));
 }
 
+/* R = Q + P^2/4 - P'/2. */
 static nh_ex invariant(matcher *m)
 {
     nh_dag *d = m->d;
@@ -378,6 +387,7 @@ static size_t powers(matcher *m, nh_ex R, nh_ex out[2])
     return 2;
 }
 
+/* The point, or the middle of a square, is moved to 0; then the kinds of R in turn. */
 static size_t confluent(matcher *m, const points *s, nh_ex out[2])
 {
     nh_ex g;

@@ -1,3 +1,12 @@
+/* named_system: Gamma(Phi) = 0, sorted by products of states, as P f' + Q f = 0; then elimination.
+ *
+ *     read_rates        rows: one for each product of states; P_i from Gamma(s) b_i, Q_i from Gamma(b_i)
+ *     use_algebraic     a row with P = 0 gives one unknown by the others, put into all rows with its derivative
+ *     use_derivative    a row becomes the only one with g_p'
+ *     drop_free         an unknown without an equation is 0
+ *     connected         blocks of what is left: g_i' = - sum_j Q_ij g_j
+ *
+ * T keeps what each f_i is in the unknowns that are left. */
 #include "integrals/named_coefficients.h"
 
 #include "exact/normal.h"
@@ -47,6 +56,7 @@ static bool depends_on_states(const linear_system *x, nh_ex e)
     return false;
 }
 
+/* The row of this product of states; a new one is zero. */
 static row *row_of(linear_system *x, nh_ex product)
 {
     for (size_t r = 0; r < x->rows; r++)
@@ -64,6 +74,7 @@ typedef struct {
     bool monomial; /* the product is one of powers of symbols */
 } split_term;
 
+/* c e as (a product of states) times (a function of s). */
 static split_term split(const linear_system *x, nh_num c, nh_ex e)
 {
     nh_dag *d = x->d;
@@ -100,6 +111,7 @@ static nh_ex coefficient_of(const linear_system *x, nh_ex monomial, nh_ex e)
     return nh_simplify(d, e);
 }
 
+/* Adds e, the coefficient of f_i' (rate) or f_i, to the rows of its products of states. */
 static void add_terms(linear_system *x, size_t i, bool rate, nh_ex e)
 {
     nh_dag *d = x->d;
@@ -149,6 +161,7 @@ static void read_rates(linear_system *x)
 
 /* ---- elimination ---- */
 
+/* How many of the unknowns' coefficients are not zero. */
 static size_t entries_of(const linear_system *x, const nh_ex *e)
 {
     size_t n = 0;
@@ -259,6 +272,7 @@ static bool drop_free(linear_system *x)
     return false;
 }
 
+/* A row that loses its derivatives is algebraic, so that all begins again. */
 static void eliminate_unknowns(linear_system *x)
 {
     do {
@@ -275,6 +289,7 @@ static void eliminate_unknowns(linear_system *x)
 
 /* ---- blocks ---- */
 
+/* The row with g_p' alone. */
 static const row *row_for(const linear_system *x, size_t p)
 {
     for (size_t r = 0; r < x->rows; r++)
@@ -298,6 +313,7 @@ static size_t connected(const linear_system *x, size_t p, bool *seen, size_t *ou
     return n;
 }
 
+/* A and T of the unknowns g. */
 static void read_block(const linear_system *x, size_t order, const size_t *g, nh_named_block *out)
 {
     *out = (nh_named_block){.order = order};

@@ -1,3 +1,6 @@
+/* named_variable: with x = r(s), u_s = r' u_x and u_ss = r'^2 u_xx + r'' u_x, so that u_ss = p u_s + q u becomes
+ *     u_xx = ((p r' - r'') u_x + q u)/r'^2,
+ * the coefficients written in x by the inverse of r. [docs/method.md, sec. 10, "Functions with names"] */
 #include "integrals/named_coefficients.h"
 
 #include <string.h>

@@ -1,3 +1,9 @@
+/* noether_equation: from zeta to the equation. [docs/method.md, sec. 4, "Proof"]
+ *
+ *     find_tau      zeta^i = (function of t, q) - tau w^i
+ *     component     xi^s = R^s_i (zeta^i + tau w^i) + tau rho^s(w = 0)
+ *     G             Phi - xi^s p_s + tau (p_s v^s - L) at w = 0
+ *     the sum       work_along + (dxi^s/dt) p_s + tau dL/dt + (xi^s - tau v^s) Q_s + dG/dt */
 #include "integrals/noether_equation.h"
 
 #include "base/memory.h"

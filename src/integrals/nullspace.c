@@ -1,3 +1,14 @@
+/* nullspace: min |A c| / |B c| in three steps. [docs/method.md, eq. 13]
+ *
+ *     rows arrive           A: residuals (rows x columns), B: values; each kept as the triangle of its QR [Demmel2012]
+ *     independent_values    B - mean = Q R D P^T over the columns that vary and are independent (basis.h)
+ *     quotient              singular values of A D^-1 P R^-1, ascending: sigma_1 <= .. <= sigma_k
+ *     decide                which of them are null, and whether a gap separates them
+ *
+ *        sigma    0 ........ null bound ........ undecided ........................ largest
+ *                 |  FOUND      |     UNDECIDED      |       not conserved        |
+ *
+ * A vector x of the quotient is c = D^-1 P R^-1 x, with |B c| = 1. */
 #include "integrals/nullspace.h"
 
 #include <float.h>

@@ -4,7 +4,7 @@
  *
  * A plain SVD of A would call every near-dependence of the basis a symmetry; the quotient asks how little Gamma(Phi) is
  * compared with how much Phi varies.  Both matrices are streamed: only their triangles are kept.  Columns of B that
- * depend on the others over the samples are dropped by a rank-revealing QR (after equilibration); the generalized
+ * depend on the others over the samples are dropped by Gram-Schmidt (after equilibration); the generalized
  * singular values are those of A R^-1 with B P = Q R.  The rank is read at the widest gap above rounding; a shallow gap
  * is NH_UNDECIDED, never a quiet "none".
  *

@@ -1,3 +1,10 @@
+/* points: where the equations are taken. [docs/method.md, sec. 4, "Samples"]
+ *
+ *     nh_sampler_next      a Sobol point in the box [Sobol1967]: of (t, q, w), or of (t, q, v) in a natural sampling
+ *     project              natural: v -> the nearest allowed velocities, rho(w) = v by Gauss-Newton
+ *     nh_chart_complete    implicit velocities u by Newton
+ *     accept               finite?  |v|, |a| of usual size?  |R| below 1/pivot?  -> weight unit/(1 + |a| + |v|)
+ *     add_beyond           only |R| too large: (t, q, v) on the constraints, with v' from the multiplier form */
 #include "integrals/points.h"
 
 #include <math.h>
@@ -10,6 +17,7 @@
 
 enum { most_tries_per_point = 40 };
 
+/* Room for `count` points of `width` columns, padded to whole batches. */
 static nh_points *empty(size_t count, size_t width)
 {
     nh_points *p = nh_alloc(sizeof *p);
@@ -116,6 +124,7 @@ typedef struct {
     double steepest; /* largest |R| that is accepted in a chart of coordinate velocities: 1 / pivot */
 } guard;
 
+/* One tape of what decides: rho (m), R (m x n), a (n), Lbar. */
 static guard guard_create(const nh_model *model, double pivot)
 {
     size_t m = model->m, n = model->n, total = m + m * n + n;
@@ -290,6 +299,7 @@ static void sampling_clear(sampling *s, nh_sampler *sampler)
     nh_free(s->low);
 }
 
+/* Takes points until `count` are usable, or 40 tries for each are used up. */
 static nh_points *create(const nh_model *model, size_t count, double stretch, uint64_t seed, bool cover,
                          nh_error *error)
 {

@@ -28,7 +28,8 @@ void nh_points_free(nh_points *points);
 /* The number of points, including those beyond the chart. */
 size_t nh_points_equations(const nh_points *points);
 
-/* The same for a list of expressions, into one block value[k * count + p]. */
+/* The values of n expressions in the model's symbols at all points, value[k * count + p]; not those beyond the chart.
+ */
 void nh_points_evaluate(const nh_points *points, const nh_model *model, size_t n, const nh_ex *e, double *value);
 
 #endif

@@ -1,3 +1,7 @@
+/* projected_points: Newton's method for f^a(t, q, v) = 0 and, for quasi-velocities, rho(t, q, w) = v.
+ *
+ *     solve     in doubles, x := x - J f with the pseudo-inverse J of df/dx: the shortest step
+ *     refine    in balls with the same J, until all digits are right */
 #include "integrals/projected_points.h"
 
 #include <math.h>
@@ -33,6 +37,8 @@ struct nh_projector {
 
 /* ---- one system of equations ---- */
 
+/* Programs for f and J = df/dx (equations x unknowns, column-major), and the expressions of J^T f with symbols for J.
+ */
 static void newton_create(nh_projector *p, newton *s, size_t unknowns, nh_ex *x, size_t equations, nh_ex *f)
 {
     nh_dag *d = p->o->dag;

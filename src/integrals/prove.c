@@ -1,3 +1,15 @@
+/* prove: the order in which a proof is looked for. [docs/method.md, sec. 4, "Proof"]
+ *
+ *     nh_prove_claim
+ *       |-- an exact relation is known: done
+ *       |-- long rate: is it the energy?  has it a short field zeta, with (N0) and (NY) identities?
+ *       |-- prove_zero
+ *       |     |-- prove_sum    normal form with symbols, then with values
+ *       |     |-- cancel       digits in balls; may refute
+ *       |     `-- prove_sum    once more with more terms, where the digits promise success
+ *       `-- short rate, not proved for all parameters: the field after all
+ *
+ * A term is one direction's part of Gamma(Phi): 1 + m + n of them (nh_rate_terms). */
 #include "integrals/prove.h"
 
 #include <math.h>
@@ -149,6 +161,8 @@ static bool cancels(nh_ball *ball, size_t n, const nh_ex *term, nh_ex sum, nh_ex
     return true;
 }
 
+/* To how many digits the terms cancel: the fewest at some exact points in ball arithmetic, 0 where there are no
+ * points. */
 static void cancel(const nh_model *model, size_t n, const nh_ex *term, const nh_options *options, nh_proof *proof)
 {
     nh_ex sum = nh_int(model->dag, 0);
@@ -168,11 +182,13 @@ static void cancel(const nh_model *model, size_t n, const nh_ex *term, const nh_
     proof->digits = proof->points == 0 ? 0 : fmax(0, fmin(least, most));
 }
 
+/* e with the values of the parameters that are fixed; the others are symbols. */
 static nh_ex with_symbols(const nh_model *model, const nh_ex *fixed, nh_ex e)
 {
     return fixed ? nh_fixed_values(model, fixed, e) : e;
 }
 
+/* The proof for all parameter values, but for those that are fixed. */
 static nh_proof holding(nh_proof proof, const nh_ex *fixed)
 {
     proof.proved = true;
@@ -302,6 +318,7 @@ nh_proof nh_prove_zero(const nh_model *model, size_t n, const nh_ex *term, bool 
     return prove_zero(model, n, term, (nh_proof){0}, (nh_claim){.free = parameters_free}, options);
 }
 
+/* Is e zero by normal form, with the parameters that the claim leaves free as symbols? */
 static bool is_identity(const nh_model *model, nh_ex e, nh_claim claim, const nh_options *options)
 {
     e = claim.free ? with_symbols(model, claim.fixed, e) : nh_model_values(model, e);

@@ -1,3 +1,9 @@
+/* refine: coefficients of currents with hundreds of bits.
+ *
+ *     feed_points     rows Gamma(b_j)(z), n + spare of them, at exact points z
+ *     ball_fit        the null space of their normal matrix in balls; vectors in echelon form
+ *     check_points    digits to which each vector cancels at points that the fit has not seen
+ *     nh_refine_numbers  the same with d/dtheta of the rates as further columns: Newton's steps for numbers in terms */
 #include "integrals/refine.h"
 
 #include <math.h>
@@ -63,6 +69,7 @@ static bool exact_rates(const nh_model *model, size_t n, const nh_ex *term, nh_e
     return exact;
 }
 
+/* Frees fit and ball.  A coefficient far below the digits of its vector is rounding, and becomes 0. */
 static nh_refined fit_rates(const nh_model *model, nh_ball *ball, nh_ball_fit *fit, size_t n, const nh_options *options)
 {
     nh_refined out = {0};
@@ -160,6 +167,7 @@ static double newton_step(newton_problem *p)
     return largest;
 }
 
+/* Inexact numbers in the terms become the symbols theta; false where there are none, or the rates are not exact. */
 static bool lift_numbers(newton_problem *p, const nh_ex *term)
 {
     bool exact = true;
@@ -173,6 +181,7 @@ static bool lift_numbers(newton_problem *p, const nh_ex *term)
     return exact;
 }
 
+/* Every step has to be smaller than the one before, until the digits suffice. */
 static bool iterate_steps(newton_problem *p)
 {
     double wanted = pow(10, -p->options->digits - spare_digits), last = first_step;

@@ -1,3 +1,10 @@
+/* reflection: all maps S are tried, as bits, on values at a few points. [docs/method.md, sec. 4, "Sectors"]
+ *
+ *     bit      0       1 .. m        m + 1 ..              then
+ *     sign of  t       q^1 .. q^m    w^i (quasi only)      shifts by pi of the angles
+ *
+ * In coordinate velocities the sign of w^i is that of t times that of its coordinate.  Maps that hold form a group;
+ * bits that hold are entered into an echelon form over two elements, whose rows are its generators. */
 #include "integrals/reflection.h"
 
 #include <math.h>
@@ -21,6 +28,7 @@ typedef struct {
 
 /* ---- candidates: bits are e_0, e_1..e_m, shifts of the angles, and f_1..f_n where these do not follow from e ---- */
 
+/* Does q stand in a sine, cosine or tangent of the equations of motion? */
 static bool is_wave(const nh_model *model, nh_ex q)
 {
     NH_LIST(call);
@@ -35,6 +43,7 @@ static bool is_wave(const nh_model *model, nh_ex q)
     return false;
 }
 
+/* Values of rho, a and of the residuals of the implicit velocities at the points. */
 static trial start(const nh_model *model, const nh_points *points)
 {
     size_t m = model->m, n = model->n, k = model->chart->implicit;
@@ -72,6 +81,7 @@ static void finish(trial *t)
     nh_free(t->there);
 }
 
+/* The map with these bits. */
 static void decode(const trial *t, uint32_t bits, nh_reflection *r)
 {
     const nh_model *model = t->o;
@@ -96,6 +106,7 @@ void nh_reflect(const nh_reflection *r, size_t width, const double *z, double *o
 
 static bool close_to(double a, double b, double size) { return fabs(a - b) <= 1e-9 * (size + fabs(a) + fabs(b)); }
 
+/* rho^s(S z) = e_0 e_s rho^s(z), a^i(S z) = e_0 f_i a^i(z), and residuals that stay 0, at point p. */
 static bool holds_at(trial *t, const nh_reflection *r, size_t p)
 {
     const nh_model *o = t->o;

@@ -127,6 +127,7 @@ typedef struct {
     double rho[most_directions], impulse[most_directions], speed, size;
 } passage;
 
+/* The mid-point of e's ball. */
 static bool value_of(nh_ball *ball, nh_ex e, double *value)
 {
     double radius;
@@ -193,6 +194,7 @@ static bool may_kick(const nh_model *model, const nh_walls *walls, nh_ex g)
     return model->m <= most_directions;
 }
 
+/* Walls at which I_s R^s_i or [rho^s] stays, from one distance to the next nearer one. */
 static void find_impulses(const nh_model *model, const nh_options *options, nh_terrain *t)
 {
     nh_ball *ball = nh_ball_create(model->dag, (long)options->bits);
@@ -295,6 +297,7 @@ typedef struct {
     bool below, above, jump;
 } seen;
 
+/* One crossing: below and above are 1, 0 or -1 (`holds`). */
 static void look(judge *j, const nh_crossing *c, seen *s)
 {
     int below = j->digits > 0 ? holds(j, c->point[0][0]) : 1, above = j->digits > 0 ? holds(j, c->point[1][0]) : 1;

@@ -84,6 +84,7 @@ static nh_tape *beyond_tape(const nh_model *model, const nh_ansatz *a, size_t un
     return tape;
 }
 
+/* Tape and scratch for 2 * factors + 1 rows of NH_BATCH values: factors, their rates, kappa. */
 static nh_rows *prepare(const nh_model *model, const nh_ansatz *a, nh_ex kappa, size_t unknowns, const nh_ex *unknown)
 {
     nh_rows *r = nh_alloc(sizeof *r);

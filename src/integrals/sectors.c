@@ -1,3 +1,14 @@
+/* sectors: the ansatz in parts by parity, and their null spaces as one. [docs/method.md, sec. 4, "Sectors"]
+ *
+ *     all_parities    key[j]: bit b says whether column j is odd under reflection b
+ *     split           columns sorted by key: first[s] .. first[s + 1] - 1 is sector s
+ *     solve_sector    one null space each, in parallel
+ *     merge           spectra merged; a vector has its entries in the rows of its sector and 0 elsewhere
+ *
+ *                columns     sector 0    sector 1    sector 2
+ *         vectors          [   *      |     0     |     0    ]
+ *                          [   0      |     *     |     0    ]
+ *                          [   0      |     0     |     *    ] */
 #include "integrals/reflection.h"
 
 #include <float.h>
@@ -116,6 +127,7 @@ static int by_key(const void *a, const void *b)
     return x->index < y->index ? -1 : x->index > y->index;
 }
 
+/* Columns and the matrix to_term in this order. */
 static void reorder(nh_ansatz *a, const keyed *order)
 {
     nh_column *column = nh_arena_alloc(a->arena, (a->columns + 1) * sizeof *column);
@@ -210,6 +222,7 @@ static void merge_spectra(const nh_sectors *s, nh_nullspace *const *part, nh_nul
         both ? whole->spectrum[whole->dimension] / fmax(whole->spectrum[whole->dimension - 1], DBL_EPSILON) : INFINITY;
 }
 
+/* One null space from those of the sectors: ranks and dimensions add up, vectors are padded with zeros. */
 static nh_nullspace *merge(const nh_sectors *s, nh_nullspace *const *part)
 {
     nh_nullspace *whole = nh_alloc(sizeof *whole);

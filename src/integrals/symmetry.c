@@ -139,6 +139,7 @@ static void without_motion(nh_model *model, nh_symmetry *z)
     for (size_t i = 0; i < n; i++) z->relative.velocity[i] = tidy(d, z->relative.velocity[i]);
 }
 
+/* W = M^-1 (A Z^0 - X(Phi) - G zeta) and Z^s = rho^s Z^0 + R^s_i zeta^i. */
 static void solve_directly(nh_model *model, nh_symmetry *z)
 {
     nh_dag *d = model->dag;

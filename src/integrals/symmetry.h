@@ -49,7 +49,8 @@ bool nh_symmetry_is_energy(const nh_model *model, nh_ex phi);
 /* A field given by Z^0 and zeta: its current alpha(Z) = Lbar Z^0 + pbar_i zeta^i. */
 nh_ex nh_symmetry_current(const nh_model *model, nh_ex Z0, const nh_ex *zeta);
 
-/* The largest residual of the equations below over the points, relative to the largest of their terms. */
+/* The largest residual of (N0), (NX) and (NY) [docs/method.md, eq. 11] over the points, relative to the largest of
+ * their terms. */
 double nh_symmetry_residual(const nh_model *model, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
                             const nh_ex *W);
 

@@ -1,4 +1,9 @@
-/* The terms of L that are linear in the velocities, and those of the potential; the former are integrated. */
+/* total_derivative: terms of L that are linear in the velocities, a_s v^s, and the terms of the potential; the former
+ * are integrated, term by term:
+ *
+ *     F = int (a term of a_s) dq^s;   dF/dt = F_t + F_q v is taken away where every one of its terms is a term of L
+ *
+ * [docs/method.md, sec. 4] */
 #include "integrals/total_derivative.h"
 
 #include <string.h>
@@ -35,6 +40,7 @@ static size_t terms_of(const parts *x, nh_ex e, nh_ex **out)
     return n;
 }
 
+/* The number of terms of e, a constant included. */
 static size_t count_terms(const parts *x, nh_ex e)
 {
     nh_ex *term;

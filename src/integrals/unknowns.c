@@ -1,3 +1,17 @@
+/* unknowns: values of theta (frequencies inside of the ansatz) at which the null space grows.
+ *
+ *     1  pencil    for one unknown in a Fourier family: candidates nu as eigenvalues (pencil.h)
+ *     2  generic   the null dimension at random theta: values above `generic` are hits
+ *     3  search    sigma(theta), the singular value number `generic`, is followed to all its minima
+ *
+ *        sigma  |\      /\    /\      sigma has a V at a hit: simplex methods go down it to rounding;
+ *               | \    /  \  /  \     a smooth minimum that stays above rounding is none
+ *               |  \  /    \/    \_
+ *               |___\/_____________
+ *                 hit               theta
+ *     4  hits      minima and candidates whose null dimension is larger; equal ones are joined
+ *
+ * [docs/method.md, sec. 4; search: RinnooyKanTimmer1987, KucherenkoSytsko2005, subplex: Rowan1990] */
 #include "integrals/unknowns.h"
 
 #include <float.h>
@@ -38,6 +52,7 @@ static bool split_family(const nh_model *model, const nh_family *f, nh_ex unknow
     return *wave != NULL;
 }
 
+/* value[0..count-1] stays in ascending order; a value that is there to 7 digits is not added again.  The new count. */
 static size_t add_value(double *value, size_t count, size_t most, double x)
 {
     for (size_t i = 0; i < count; i++)
@@ -129,6 +144,7 @@ static double sigma_at(objective *o, const double *theta, size_t index, size_t *
     return value;
 }
 
+/* NLopt's objective: sigma at theta (n values).  Every evaluation is remembered in `seen`. */
 static double evaluate(unsigned n, const double *theta, double *gradient, void *context)
 {
     objective *o = context;
@@ -151,6 +167,7 @@ static double evaluate(unsigned n, const double *theta, double *gradient, void *
     return value;
 }
 
+/* The least null dimension at random values: what is null for almost every theta. */
 static void generic_dimension(objective *o, uint64_t seed)
 {
     double *theta = nh_alloc_array(o->n + 1, sizeof *theta);
@@ -240,6 +257,7 @@ static double polish(objective *o, double *theta, double width)
     return value;
 }
 
+/* In the largest part of an interval. */
 static double distance(const objective *o, const double *a, const double *b)
 {
     double d = 0;
@@ -272,6 +290,7 @@ static size_t basins(objective *o, double near, double *out)
 
 /* ---- hits ---- */
 
+/* A hit that is there gets the better value, and says by which ways it was found; hits ascend in the first unknown. */
 static void add_hit(nh_hits *h, const objective *o, const double *theta, double quotient, size_t dimension, bool pencil)
 {
     for (size_t i = 0; i < h->count; i++) {
@@ -297,6 +316,7 @@ static void add_hit(nh_hits *h, const objective *o, const double *theta, double 
         .value = value, .quotient = quotient, .dimension = dimension, .by_pencil = pencil, .by_search = !pencil};
 }
 
+/* theta is a hit where more is null than for generic values. */
 static void consider(nh_hits *h, objective *o, const double *theta, bool pencil)
 {
     size_t dimension;

@@ -1,3 +1,23 @@
+/* A motion with an estimated error below eps (accuracy.h): which method, and at which tolerance.
+ *
+ *      take_given     a plan that is known from motions like this one          |
+ *      choose         race: rk8pd up to `quick`, else CVODE BDF where that     |  first run at tau_1
+ *                     needs `faster` times less; then pilot runs of others     |
+ *                                                                              v
+ *      tighten        run 1    run 2    run 3 ..                   tau_1 > tau_2 > tau_3 ..
+ *                         \    /   \    /                          odd runs from a state perturbed by 1 part in 10^15
+ *                          d_1      d_2                            differences at the outputs, the largest
+ *
+ *                     exponent p = log(d_1/d_2)/log(tau_1/tau_2)   within [0.2, 0.9]
+ *                     estimate   = d (tau_fine/tau_coarse)^p       accepted below eps/2
+ *
+ *      confirm        where it is doubtful: a second method at tighter and tighter tolerances, until it agrees to eps
+ *
+ *      the motion     from the unperturbed state
+ *
+ * Of methods with fixed steps the tolerance stands for the number n of steps between outputs, and ratios of errors
+ * are (n_1/n_2)^order. All limits are counted work (base/effort.h). A plan that comes from elsewhere and fails here
+ * is dropped, and the motion computed without it. */
 #include "motion/accuracy_internal.h"
 
 #include <math.h>
@@ -24,6 +44,7 @@ static const double pilot_share = 0.25; /* and they may take so large a part of 
 static const double shortest = 5e5, most_times = 16;
 static const double more_steps = 0.8; /* greatest (n1/n2)^order from one number n1 of fixed steps to the next, n2 */
 
+/* The length of the motion. */
 static double span_of(const nh_trajectory_request *q) { return fabs(q->times[q->count - 1] - q->times[0]); }
 
 /* The longest time between outputs. */
@@ -34,6 +55,7 @@ static double spacing_of(const nh_trajectory_request *q)
     return longest;
 }
 
+/* Has the plan's method fixed steps? */
 static bool fixed(const nh_accuracy_search *s) { return s->way && s->way->method->order; }
 
 /* The number of steps between two outputs, of a method with fixed steps, whose steps end at the outputs. */
@@ -70,6 +92,8 @@ static nh_state disturbed(const nh_trajectory_request *q, double *q_and_v)
     return out;
 }
 
+/* One motion at one tolerance, with at most so many units of effort (0: no limit), which are added up; NULL where it
+ * could not begin. */
 static nh_trajectory *run(nh_accuracy_search *s, const nh_method *method, double tolerance, bool disturb,
                           double max_effort, nh_error *error)
 {
@@ -369,6 +393,7 @@ static nh_integration_plan way_of(const nh_accuracy_search *s, const nh_trajecto
     return w;
 }
 
+/* The whole search, with the verdict in *accuracy and its reasons in words. */
 static nh_trajectory *attempt(const nh_trajectory_request *request, double eps, const nh_integration_plans *ways,
                               nh_accuracy *accuracy, nh_error *error)
 {

@@ -1,15 +1,15 @@
 /* chetaev: the same motion in all coordinates with Lagrange multipliers, by IDA (index 1 or 2).
  *
  *     q' = v
- *     K v' + h = mu_a df^a/dv        h = d/dt-part of p_s without v' minus dL/dq - Q;  K = d2L/dv dv   (sign: dL/dq -
- *                                    d/dt p = mu df/dv)
+ *     K v' + h = -mu_a df^a/dv       h = d/dt-part of p_s without v' minus dL/dq - Q;  K = d2L/dv dv
+ *                                    (docs/method.md (7): dL/dq + Q - d/dt p = mu df/dv)
  *     f^a_v v' + f^a_q v + f^a_t = 0
  *
- * i.e. with everything on one side:   K v' + h + F^T mu = 0,   F v' + g = 0,   where F = df/dv (k x m), h, g functions
- * of (t,q,v). Of index 1 the constraint f itself is not imposed after t0: its violation measures the error.  Of index 2
- * the last equation is f^a = 0 itself, which then holds to the tolerance of Newton's iteration; the multipliers lose
- * digits [BrenanCampbellPetzold1996].  K may be singular as long as the bordered matrix is regular.  The callback
- * computes K, h, F, g and f at once.
+ * i.e. with everything on one side:   K v' + h + F^T mu = 0,   F v' + g = 0,   where F = df/dv (k x m), h, g
+ * functions of (t,q,v). Of index 1 the constraint f itself is not imposed after t0: its violation measures the error.
+ * Of index 2 the last equation is f^a = 0 itself, which then holds to the tolerance of Newton's iteration; the
+ * multipliers lose digits [BrenanCampbellPetzold1996].  K may be singular as long as the bordered matrix is regular.
+ * The callback computes K, h, F, g and f at once.
  *
  * Reference: [Hindmarsh2005], [Chetaev equations: CechMusilova2014, eq. 10]. */
 #ifndef NH_CHETAEV_H

@@ -1,3 +1,12 @@
+/* The smallest closed subsystem for the observables (closed_subsystem.h), from the graph of dependency_graph.c:
+ *
+ *      state[]     [ core ........ | quadratures .... | by currents | dropped ]
+ *                    0               core               kept          kept + levels
+ *
+ *      feeds       core <-> core --> layer 1 --> layer 2 --> observables       no state of the core feeds on a layer
+ *
+ * Layers are taken off from the outside: first the kept states that no other kept state reads. Programs are compiled
+ * with constants in the places of dropped states, on which they do not depend. */
 #include "motion/closed_subsystem.h"
 
 #include <math.h>
@@ -113,6 +122,7 @@ static nh_tape *frozen_tape(const nh_closed_subsystem *s, size_t n, const nh_ex 
     return tape;
 }
 
+/* The rates of the kept states and their Jacobian, the values and slopes of the levels. */
 static void make_tapes(nh_closed_subsystem *s)
 {
     const nh_model *model = s->model;
@@ -244,6 +254,7 @@ void nh_closed_subsystem_run_free(nh_closed_subsystem_run *run)
     nh_free(run);
 }
 
+/* The point (t, q, w, u, c) of the kept states z. */
 static bool place(nh_closed_subsystem_run *run, double t, const double *z)
 {
     const nh_closed_subsystem *s = run->scene;
@@ -272,6 +283,7 @@ bool nh_closed_subsystem_point(nh_closed_subsystem_run *run, double t, const dou
     return good;
 }
 
+/* The rates of the kept states; false where a current does not determine its state. */
 static bool scene_rate(double t, const double *z, double *rate, void *context)
 {
     nh_closed_subsystem_run *run = context;

@@ -1,3 +1,13 @@
+/* Which states feed which, and what conserved currents make superfluous (dependency_graph.h).
+ *
+ *      rows i = rates of the states, then the watched expressions;   feeds[i][j]: d row_i/dz_j is not identically zero
+ *
+ *      close_network     from the watched rows: keep the states that feed them, ask their rows, and so on
+ *      improve           for each current and each kept state it may determine: substitute z_j = (c - B)/A in all rows,
+ *                        close the network anew, keep the best; again, until none leaves fewer states
+ *
+ *      A derivative is judged by its values at the probes first; those that vanish there are proved to be zero by their
+ *      normal form or by balls, in the network that is used in the end. */
 #include "motion/dependency_graph.h"
 
 #include <math.h>
@@ -86,6 +96,7 @@ static bool vanishes_in_balls(const nh_dependency_graph *w, nh_ex d)
     return zero;
 }
 
+/* Is d identically zero? By its normal form, or by balls where that is too large. */
 static bool is_zero(const nh_dependency_graph *w, nh_ex d)
 {
     return nh_is_zero(w->model->dag, d) || nh_normal_is_zero(w->model->dag, d, most_terms) == NH_ZERO ||
@@ -94,6 +105,7 @@ static bool is_zero(const nh_dependency_graph *w, nh_ex d)
 
 /* ---- which state feeds which ---- */
 
+/* Is state j determined by a current? */
 static bool removed(const nh_dependency_graph *w, size_t j)
 {
     for (size_t k = 0; k < w->levels; k++)
@@ -177,6 +189,7 @@ static void close_network(nh_dependency_graph *w, bool proved)
     nh_free(row);
 }
 
+/* The operations of the kept rows, with a constant for each state. */
 static void estimate_cost(nh_dependency_graph *w)
 {
     nh_ex *e = nh_alloc_array(w->count + 1, sizeof *e);

@@ -1,3 +1,10 @@
+/* The equations of motion as problems for the integrators (dynamics.h):
+ *
+ *      chart        z = (q, w), m + n:     z' = (rho, a)                model's formulas (method.md, sec. 2)
+ *                                          d z'/d z exact, or by differences where that program would be long
+ *                                          guards: pivot det(df^a/dv^dependent), orientations; walls of the rates
+ *      bordered     (q, v), 2 m:           q' = nearest velocity on the constraints, [K F^T; F 0] (v', mu) = -(h, g)
+ *      multipliers  (q, v, mu):            the terms K, h, F, g, f for chetaev.h */
 #include "motion/dynamics_internal.h"
 
 #include <math.h>
@@ -10,6 +17,7 @@
 
 /* ---- equations of motion on the constraint submanifold ---- */
 
+/* The programs of (rho, a), m + n values, and of the walls between them. */
 static void make_rates(nh_dynamics *d)
 {
     const nh_model *model = d->model;
@@ -30,6 +38,7 @@ bool nh_dynamics_differences(size_t length, size_t size)
     return (double)length * (double)size > most;
 }
 
+/* d(rho, a)_i/dz_j at i + j (m + n). */
 static nh_tape *jacobian_tape(const nh_model *model)
 {
     size_t size = model->m + model->n;
@@ -162,6 +171,7 @@ bool nh_dynamics_point(nh_dynamics *d, double t, const double *z, double *point)
     return true;
 }
 
+/* z' at (t, z). */
 static bool rate_of(double t, const double *z, double *rate, void *context)
 {
     nh_dynamics *d = context;
@@ -170,6 +180,7 @@ static bool rate_of(double t, const double *z, double *rate, void *context)
     return nh_all_finite(d->size, rate);
 }
 
+/* d z'_i/d z_j at jacobian[i + j (m + n)]. */
 static bool jacobian_of(double t, const double *z, double *jacobian, void *context)
 {
     nh_dynamics *d = context;
@@ -241,6 +252,7 @@ void nh_dynamics_end_early(nh_dynamics *d, double t, const double *z)
     if (d->constraint && pivot_of(d, t, z, &pivot)) d->least = small * pivot;
 }
 
+/* The walls' values. */
 static bool walls_of(double t, const double *z, double *value, void *context)
 {
     nh_dynamics *d = context;
@@ -279,6 +291,7 @@ nh_flow_problem nh_dynamics_problem(nh_dynamics *d)
 
 /* ---- multiplier form ---- */
 
+/* K, h, F, g, f at (t, q, v), for the multiplier form. */
 static bool terms_of(double t, const double *q, const double *v, double *K, double *h, double *F, double *g, double *f,
                      void *context)
 {

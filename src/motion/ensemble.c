@@ -1,3 +1,4 @@
+/* Batches that step together (the steps: ensemble.h), then the members that were left out, alone. */
 #include "motion/ensemble.h"
 
 #include <float.h>
@@ -55,6 +56,7 @@ typedef struct {
 
 /* ---- one batch ---- */
 
+/* k = f(t, z) of the kept states in all lanes. */
 static void rates(batch *b, double t, const double *z, double *k)
 {
     const nh_closed_subsystem *s = b->p->out->scene;
@@ -85,6 +87,7 @@ static double try_step(batch *b)
     return worst;
 }
 
+/* The member will be computed alone. */
 static void leave_out(batch *b, size_t lane)
 {
     b->alive[lane] = false;
@@ -149,6 +152,7 @@ static void watch_turns(batch *b)
     }
 }
 
+/* The wanted values of all lanes at this output. */
 static void store(batch *b, size_t output)
 {
     nh_ensemble *e = b->p->out;
@@ -217,6 +221,7 @@ static bool go_to(batch *b, double target, long *steps)
     return true;
 }
 
+/* Memory and initial states of batch `index`. */
 static void open_batch(batch *b, const plan *p, size_t index)
 {
     const nh_closed_subsystem *s = p->out->scene;

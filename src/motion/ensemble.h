@@ -2,11 +2,20 @@
  *
  * Members are integrated in batches that take common steps, by an explicit Runge-Kutta pair of order 8 (Prince and
  * Dormand) whose right-hand side is evaluated for the whole batch at once; the member that needs the smallest step
- * decides it.  The coefficients are read from GSL's own stepper.  A member that cannot continue (a singularity, the end
- * of a chart) or that slows its batch is computed alone afterwards, in all coordinates if necessary.  Batches and
+ * decides it.  The coefficients are read from GSL's own stepper.  A member that cannot continue (a singularity, the
+ * end of a chart) or that slows its batch is computed alone afterwards, in all coordinates if necessary.  Batches and
  * members alone go to several threads; the results do not depend on how many.  Each result is that of a motion of its
  * own to the tolerance.
- * [Galassi2009] */
+ *
+ *               lane  0    1    2   ..  127            a batch: kept x lanes numbers, common t and h
+ *      state 0      [ z    z    z        z  ]          one instruction of the program works on a whole row
+ *      state 1      [ z    z    z        z  ]
+ *
+ *      worst error of the lanes <= 1    the step is taken; the next by worst^(-1/8), between 1/5 and 5 times
+ *      otherwise                        lanes far above the median error leave, or h gets smaller
+ *      h too small                      lanes without finite values leave
+ *
+ * A lane that leaves keeps values at which the program can be evaluated, and no longer counts. [Galassi2009] */
 #ifndef NH_ENSEMBLE_H
 #define NH_ENSEMBLE_H
 

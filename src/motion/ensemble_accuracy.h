@@ -2,11 +2,11 @@
  *
  * The first member determines the best method for one motion (accuracy.h), two more members its cost; the first batch
  * may use as much work as its members would need alone.  The cheaper of the two is used: on stiff motions, where
- * another method is so much better than the batches' pair of order 8 that one by one is faster, and in small ensembles,
- * each member alone by that way, at the tolerance that it needs.  Otherwise the whole ensemble runs at ever tighter
- * tolerances, as one motion does, until nearly every member is accepted; the members that are not, or whose errors are
- * a thousand times the tolerance, are computed alone.  Costs are times of computing; nothing depends on the number of
- * threads. */
+ * another method is so much better than the batches' pair of order 8 that one by one is faster, and in small
+ * ensembles, each member alone by that way, at the tolerance that it needs.  Otherwise the whole ensemble runs at
+ * ever tighter tolerances, as one motion does, until nearly every member is accepted; the members that are not, or
+ * whose errors are a thousand times the tolerance, are computed alone.  Costs are counted work (base/effort.h), not
+ * time: nothing depends on the number of threads. */
 #ifndef NH_ENSEMBLE_ACCURACY_H
 #define NH_ENSEMBLE_ACCURACY_H
 

@@ -1,3 +1,16 @@
+/* Zeros of functions g_i(t, z) along a motion, step by step (events.h):
+ *
+ *        before                near        far                 now
+ *          |--------------------|-----+-----|-------------------|          one step of the integrator
+ *                               |     |     |
+ *       1. sign_changes.c:      |   root    |    the first part on which some g_i changes its sign, once
+ *       2. solve:               g < 0    g > 0   Brent's method there, on the states inside the step
+ *       3. jumps:          |g| at root -+ near against |g| at root -+ far: a zero is small near the root, a jump is not
+ *       4. record time, direction, state; in the order of time; at a function that stops, the motion ends
+ *       5. go on at `far`
+ *
+ * A function that is zero at the beginning has no side; when it gets one, its zero at the beginning is recorded with
+ * that direction. */
 #include "motion/events.h"
 
 #include <float.h>
@@ -52,6 +65,7 @@ static bool values_and_floors(double t, const double *z, double *value, void *co
     return true;
 }
 
+/* g_which at a time inside of the step; NAN where it has no value. */
 static double value_of_one(double t, void *context)
 {
     nh_event_search *c = context;
@@ -102,6 +116,7 @@ static outcome solve(nh_event_search *c, double near, double far, double *root)
     return !found ? NOTHING_FOUND : jumps(c, *root, enough) ? JUMP_FOUND : ZERO_FOUND;
 }
 
+/* Adds a zero with its state; room for 8, then doubled. */
 static void append(nh_motion *motion, double time, size_t which, int direction, const double *state)
 {
     size_t n = motion->events, size = motion->size, room = 8;

@@ -1,3 +1,13 @@
+/* States inside the last step (inside_step.h).
+ *
+ *      old ------------------ end         the integrator's own states at both ends
+ *       \                  _/ |
+ *        auxiliary step ---   | off      GSL's pair from `old` ends a little beside `end`
+ *
+ *      state(t) = auxiliary(t) + off ((t - before)/(now - before))^2      so that it is continuous at both ends
+ *
+ * Where many states are wanted (nh_inside_step_dense): the polynomial of degree 9 through states and rates at five
+ * nodes, by divided differences with double nodes. */
 #include "motion/inside_step.h"
 
 #include <string.h>

@@ -88,13 +88,13 @@ nh_motion *nh_gsl_odeiv(nh_gsl_odeiv_method method, const nh_flow_problem *probl
  *
  * LAGRANGE_DALEMBERT  discrete Lagrange-d'Alembert principle with L_d = h L((q0 + q1)/2, (q1 - q0)/h)
  *                     [CortesMartinez2001]:
- *                       2 (qm - q0) = h rho(qm, wm),     R(q0,w0)^T [ p(q0,w0) + h/2 c(qm,wm) - p(qm,wm) ] = 0,   c =
- *                       dL/dq + Q
- *                     then q1 = 2 qm - q0 and w1 from    R(q1,w1)^T [ p(qm,wm) + h/2 c(qm,wm) - p(q1,w1) ] = 0.
+ *                       2 (qm - q0) = h rho(qm, wm),   R(q0,w0)^T [ p(q0,w0) + h/2 c(qm,wm) - p(qm,wm) ] = 0,
+ *                     with c = dL/dq + Q; then q1 = 2 qm - q0, and w1 from
+ *                                                    R(q1,w1)^T [ p(qm,wm) + h/2 c(qm,wm) - p(q1,w1) ] = 0.
  *
  * ENERGY            the almost-Poisson pair q' = R u, M w' = G u - R^T dE/dq, M u = dE/dw with R, M, G at the midpoint
- *                   of z0, z1 and the
- *                     mean of grad E over the segment between them [McLachlanQuispelRobidoux1999]: conserves E exactly.
+ *                     of z0, z1 and the mean of grad E over the segment between them
+ *                     [McLachlanQuispelRobidoux1999]: conserves E exactly.
  *                     The pair equals the equations of motion for homogeneous constraints without forces only;
  *                     elsewhere it would converge to a wrong motion, so that it is compared with them at the chart's
  *                     probes, and refused.

@@ -1,3 +1,11 @@
+/* Implicit steps with a fixed length h (the rules: integrators.h). One step from z0 = (q0, w0) at t:
+ *
+ *      z0 ------------- zm ------------- z1           zm = (z0 + z1)/2 at t + h/2 is the unknown of Newton's iteration
+ *      t              t + h/2           t + h         (energy-preserving: z1 is, with the mean gradient on the segment)
+ *
+ * Newton's matrix is exact for the first two rules; the energy-preserving rule uses that of the midpoint rule, from
+ * which its own differs by terms of third order. An iteration ends at rounding, whose size in the unknowns is |A^-1|
+ * |A| |x| times epsilon. `composed` makes five such steps of s h, s h, (1 - 4 s) h, s h, s h. */
 #include "motion/integrators.h"
 #include "motion/turns.h"
 
@@ -36,6 +44,7 @@ typedef struct {
     long before; /* number of evaluations in earlier runs */
 } midpoint_work;
 
+/* The values of one of the model's programs at (t, z). */
 static const double *evaluate(midpoint_work *k, nh_program which, double t, const double *z)
 {
     return nh_programs_at(k->programs, which, t, z);
@@ -122,6 +131,7 @@ static bool converged(double change, double last)
 
 /* ---- the rules ---- */
 
+/* F(zm) = 2 (zm - z0) - h f(tm, zm) = 0, dF/dzm = 2 - h df/dz. */
 static bool solve_midpoint(midpoint_work *k)
 {
     size_t size = k->size;
@@ -191,6 +201,7 @@ static void principle(midpoint_work *k, const double *e)
     }
 }
 
+/* zm = (qm, wm) by `principle`, then w1 by `discrete_velocity`. */
 static bool solve_lagrange_dalembert(midpoint_work *k)
 {
     size_t m = k->m, n = k->n;
@@ -365,6 +376,7 @@ const char *nh_midpoint_refused(nh_programs *programs, nh_midpoint_rule rule)
 
 /* ---- the motion ---- */
 
+/* One step of length h by the rule; the state of k moves on. */
 static bool step_once(midpoint_work *k, double h)
 {
     k->h = h;

@@ -1,3 +1,11 @@
+/* Methods measured on a piece of a motion (pilot_runs.h), with a budget of counted work.
+ *
+ *      1. the piece       from a state on the way; so long that the best known method takes a share of the budget
+ *      2. a reference     by the best method, far tighter than the error that is aimed at on the piece
+ *      3. each candidate, in a fixed order, while the budget lasts:
+ *             a first run at a guessed setting -> its error -> a second one at the setting that this error asks for
+ *             stopped at twice the work of the best so far
+ *      4. the choice      the cheapest with an error below the aim, its confirmation included, if it saves enough */
 #include "motion/pilot_runs.h"
 
 #include <math.h>
@@ -57,6 +65,7 @@ typedef struct {
 
 static double left(const pilot *s) { return s->begun + s->terms->budget - nh_effort(); }
 
+/* One run of the piece with at most so much effort; NULL where it did not reach the end. */
 static nh_trajectory *run(pilot *s, const nh_method *method, nh_velocities velocities, double setting, double effort)
 {
     nh_error ignored;
@@ -133,6 +142,7 @@ static bool open_piece(pilot *s, const nh_state *from, double **times)
     return true;
 }
 
+/* May the method be used with this model? */
 static bool usable(pilot *s, const candidate *c, const nh_method *method)
 {
     bool plain = s->terms->plain || s->request->smallest;

@@ -1,3 +1,8 @@
+/* A projection of states onto the level set of currents (projection.h): Gauss-Newton steps of least norm.
+ *
+ *      J: d Phi_k/dz_j, currents x size;  D = diag(s_i^2)
+ *
+ *      z <- z + D J^T (J D J^T)^+ (Phi(z0) - Phi(z)),     with rows scaled to norm 1 before the rank decision */
 #include "motion/projection.h"
 
 #include <math.h>
@@ -153,6 +158,7 @@ static double project_once(nh_projection *p, double *z)
     return worst;
 }
 
+/* At most most_steps steps; fewer where one is below rounding. */
 bool nh_projection_apply(double t, double *z, void *context)
 {
     nh_projection *p = context;

@@ -1,3 +1,9 @@
+/* Explicit steps that keep the energy (integrators.h). One step from (t, z):
+ *
+ *      direction     k_i = f(t + c_i h, z + h a_ij k_j),  d = b_i k_i
+ *      factor        Newton's method for E(z + g h d) = E at the start of the motion, beginning at g = 1
+ *      relaxed       z += g h d, t += g h; h is halved where no g within a tenth of 1 does it
+ *      advance       the last step before an output: h is corrected until g h is the time that is left */
 #include "motion/integrators.h"
 #include "motion/turns.h"
 

@@ -1,3 +1,13 @@
+/* The first part of a step on which a function changes its sign (sign_changes.h).
+ *
+ *      begin                                        end
+ *        o--o---o---x-o-----o-----o--x--o---o----o--o          o: Chebyshev points, x: checks of the interpolation
+ *
+ *      for each function        HAS_NONE   |c_0| > sum |c_k|, with the errors: no zero
+ *                               HAS_ONE    |c_1| > sum k^2 |c_k|: monotonic, the ends show whether there is a zero
+ *                               TOUCHES    it stays near its floor: it has no sign to change
+ *                               OPEN       anything else
+ *      one is OPEN: halve, and look at the left half first; otherwise compare the signs at the ends */
 #include "motion/sign_changes.h"
 
 #include <float.h>
@@ -77,6 +87,7 @@ static void coefficients(const double *value, double *c)
     }
 }
 
+/* sum_k c_k T_k(x) by Clenshaw's recurrence. */
 static double interpolated(const double *c, double x)
 {
     double b[2] = {0, 0};
@@ -116,6 +127,7 @@ static verdict judge(const nh_sign_changes *s, size_t i)
 
 /* ---- the parts of a step ---- */
 
+/* Values and floors of all functions at the points and the checks: (points + checks) x 2 count. */
 static bool take_samples(nh_sign_changes *c, double begin, double end)
 {
     for (int j = 0; j < points + checks; j++) {
@@ -126,6 +138,7 @@ static bool take_samples(nh_sign_changes *c, double begin, double end)
     return true;
 }
 
+/* Searches a part and its halves in the order of the motion; near and far are the ends of the part with the change. */
 static bool scan(nh_sign_changes *c, double begin, double end, int depth, double *near, double *far)
 {
     double least = roundings * DBL_EPSILON * fmax(fabs(begin), fabs(end));

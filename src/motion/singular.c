@@ -1,3 +1,11 @@
+/* Places where [K F^T; F 0] becomes singular, inside the steps of a motion (singular.h).
+ *
+ *      |det|   \               /          sampled at a few times of the step; a minimum that may be a zero is searched
+ *               \    step     /           by golden sections, first on the cubic of the step, then on its states
+ *          |-----o---o---o---o------|     then the least singular values of F and of K on ker F there against those at
+ *                   \_/                   both sides: far smaller means zero, and the words say which vanish
+ *
+ * Columns are scaled by 1/sqrt(K_ss) and rows of F by 1/|F_a| at the start, so that no unit matters. */
 #include "motion/singular.h"
 
 #include <math.h>
@@ -72,6 +80,7 @@ static void scale(nh_singular_watch *c)
     }
 }
 
+/* K_sr s_s s_r and F_as r_a s_s, in place. */
 static void apply_scale(nh_singular_watch *c)
 {
     size_t m = c->m, k = c->k;
@@ -140,6 +149,7 @@ static bool least_values(nh_singular_watch *c, nh_inside_step *inside, double t,
     return true;
 }
 
+/* max |x_i|. */
 static double largest(size_t n, const double *x)
 {
     double most = 0;

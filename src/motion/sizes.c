@@ -1,3 +1,12 @@
+/* How large states are (sizes.h), in this order at the start of a motion:
+ *
+ *      1. tau := the whole time; shorter, until rates change by no more than their own size within tau (sizes_within):
+ *             z --tau f(z)--> z_1 --tau f(z_1)--> z_2 ..     Picard: each state that a state moves gets a size, too
+ *      2. a smaller tau for the sizes, then the rounding of the rates from their third differences along a line
+ *      3. states whose rates are drowned by rounding move nothing
+ *      4. states without any size: what the others can make of them within tau
+ *
+ * Along the motion the sizes follow the largest |z_i|. */
 #include "motion/sizes.h"
 
 #include <float.h>

@@ -1,3 +1,12 @@
+/* The loop that all integrators share: nh_motion_run drives a stepper from step to step.
+ *
+ *      may_go_on     limits of steps, of work, of time; a motion without hope to arrive ends early
+ *      advance       one step of the integrator, or its failure
+ *      watch_step    events and singular places inside the step
+ *      store         outputs up to the new time, from the states inside the step
+ *      stuck?        time that does not move, or hardly does
+ *
+ * An event that stops the motion is its last output; of a singular place only what lies before it is kept. */
 #include "motion/stepping.h"
 
 #include <math.h>

@@ -1,3 +1,15 @@
+/* One motion of a model, in the first formulation that reaches the end (trajectory.h):
+ *
+ *      asked for the smallest:    the closed subsystem, with all currents, then without those that fail
+ *          |  none, or it fails
+ *      asked for other velocities:  the equations of another model of the same system
+ *          |  no, or that chart ends on the way
+ *      own velocities             z' = (rho, a) of the model
+ *          |  the chart ends on the way, or becomes steep; or it does not hold at the start
+ *      all coordinates            (q, v) by the bordered system [K F^T; F 0]
+ *
+ * Events, impulses and singular places are watched in the coordinates of whichever formulation runs. The values that
+ * are wanted are computed from its states at the outputs. */
 #include "motion/automatic.h"
 #include "motion/integrators.h"
 #include "motion/singular_start.h"
@@ -59,6 +71,7 @@ bool nh_trajectory_sizes(nh_dynamics *dynamics, const nh_motion *motion, size_t 
     return good;
 }
 
+/* The chart's point of a state of the subsystem; what the subsystem does not have is not read. */
 static bool point_of_scene(void *context, double t, const double *z, double *point)
 {
     return nh_closed_subsystem_point(context, t, z, point);
@@ -138,6 +151,7 @@ static void say_machine(job *j, const char *words)
 
 /* ---- events ---- */
 
+/* The watched expressions and the sizes of their terms. */
 static bool value_of_watch(double t, const double *z, double *value, void *context)
 {
     return nh_along_values_at(context, t, z, value);
@@ -232,6 +246,7 @@ static bool take_values(job *j, nh_along_values *values, const nh_motion *motion
     return good;
 }
 
+/* Does the pivot change its sign before the last output? */
 static bool meets_pivot(job *j, nh_dynamics *dynamics, const double *z0)
 {
     const double ends[2] = {j->q->times[0], j->q->times[j->q->count - 1]};
@@ -368,6 +383,7 @@ static bool spent_all(const nh_trajectory_request *q, const nh_motion *motion)
     return !motion->complete && q->max_effort > 0 && motion->effort > q->max_effort;
 }
 
+/* The motion in own velocities, or in all coordinates where these end on the way, and its values. */
 static void in_all_states(job *j, nh_error *error)
 {
     const nh_trajectory_request *q = j->q;

@@ -1,3 +1,14 @@
+/* A motion and what confirms it (validation.h; docs/method.md, sec. 6):
+ *
+ *      chart's equations     at three tolerances, with which the drift of a true current falls, not that of a false one
+ *           |
+ *           +-- multiplier form (IDA)      all coordinates: states, and mu against the formula of the model
+ *           +-- CVODE Adams                the same states by a multistep method
+ *           +-- the other chart's pivot    where coordinate velocities would cease to determine the motion
+ *           +-- the closed subsystem       the watched values from fewer states
+ *
+ * Each computation may use the same part of the whole work. A comparison is relative to the size that the compared
+ * number has along the motion. */
 #include "motion/validation.h"
 
 #include <float.h>
@@ -36,6 +47,7 @@ enum { all_motions = NH_DRIFT_RUNS + 2 };
 
 static double most_effort(const run *r) { return 1e6 * r->options->check_work / all_motions; }
 
+/* The same limit as a number of steps of a multistep method. */
 static double most_steps(const run *r)
 {
     enum { evaluations = 3, least = 1000 };
@@ -76,8 +88,11 @@ static sizes_of_all measure_sizes(run *r, const nh_motion *motion)
     return all;
 }
 
+/* difference|/size, 0/0 = 0. */
 static double beside(double difference, double size) { return difference != 0 ? fabs(difference) / size : 0; }
 
+/* Positions, velocities and multipliers of the two motions at each output; the largest differences, relative to
+ * sizes. */
 static void compare(run *r, nh_bordered *bordered, const nh_motion *reduced, const nh_chetaev_motion *full,
                     const sizes_of_all *sizes)
 {
@@ -162,6 +177,7 @@ static void multiplier_form(run *r, const nh_state *initial, const nh_motion *re
 
 /* ---- a multistep method ---- */
 
+/* Those of run number `which`, at its tolerance. */
 static nh_flow_options options_of(const run *r, size_t which)
 {
     return (nh_flow_options){.method = NH_ADAMS,
@@ -290,6 +306,7 @@ static void smallest_model(run *r, const nh_state *initial, const nh_motion *mot
 
 /* ---- all runs ---- */
 
+/* Copies the tightest run and its multipliers into the result. */
 static void keep(run *r, const nh_state *initial, const nh_motion *motion)
 {
     nh_validation *v = r->out;

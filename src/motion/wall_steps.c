@@ -1,3 +1,13 @@
+/* Steps that end at walls (wall_steps.h).
+ *
+ *         before          wall            now
+ *           |--------------|---------------|          1. the first wall in the step, by signs inside
+ *           |------x                                  2. one-step methods: undo it, and step to just before the wall,
+ *                  |----x                                 each time by all but a thousandth of the way
+ *                       |-x                           3. a step as short as the rounding of time leads across
+ *                         ||---> longer again
+ *
+ * A method with many steps behind it hands this to a one-step method, and starts anew behind the wall. */
 #include "motion/wall_steps.h"
 
 #include <float.h>

@@ -1,3 +1,12 @@
+/* A group by its generators E = (e_1 .. e_d), m x d columns (action.h): ranks at sample points, and flows.
+ *
+ *      columns   E            V, the directions of the orbits          free where rank E = d
+ *                D            ker omega                                dimension assumption where rank [E, D] = m
+ *                [E, D]                                                dim S = d + (m - f) - rank [E, D]
+ *
+ * Everything is measured in units in which the metric has diagonal one, so that a rank does not depend on units of
+ * length. A flow q' = c^a e_a(q) is integrated; it is a circle if it is back at the start after a turn or two, or
+ * after up to four periods of its slowest rotation. */
 #include "reduction/action.h"
 
 #include <math.h>
@@ -23,6 +32,7 @@ void nh_action_values(const nh_action *g, const double *q, double *E)
 
 /* ---- ranks ---- */
 
+/* Columns of a (m x n) of length one. */
 static void unit_columns(size_t m, size_t n, double *a)
 {
     for (size_t j = 0; j < n; j++) {
@@ -94,6 +104,7 @@ static void on_constraints(const nh_action *g, nh_ex *e)
         }
 }
 
+/* Ranks of E, [E, D] at the sample points; exact where relations are known. From these free, Chaplygin, dim S. */
 static void find_ranks(nh_action *g, const nh_options *options)
 {
     static const double rounding = 1e-12;

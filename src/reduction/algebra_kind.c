@@ -1,4 +1,10 @@
-/* algebra_kind: the names of indecomposable algebras, by their series, Killing form and radical. */
+/* algebra_kind: the names of indecomposable algebras, by their series, Killing form and radical.
+ *
+ *      d = 1, 2                        R; the affine group of a line
+ *      d = 3                           by [g,g] and ad_x on it, x outside: Bianchi's numbers
+ *      [g,g] Heisenberg's, d = 4       turns or boosts of its plane
+ *      [g,g] = g, abelian radical      by the signature of the Killing form: simple, or with translations
+ *      else                            no name */
 #include <math.h>
 #include <string.h>
 
@@ -36,6 +42,7 @@ size_t nh_algebra_radical(const nh_algebra *g, double small, double *out)
     return n;
 }
 
+/* The numbers of positive and of negative eigenvalues of the Killing form. */
 static void killing_signs(const nh_algebra *g, double small, size_t *positive, size_t *negative)
 {
     size_t d = g->d;

@@ -25,6 +25,7 @@ static void identity(size_t d, double *out)
 
 /* ---- series ---- */
 
+/* Dimensions of the derived, or lower central, series, until they no longer fall; how many there are. */
 static size_t series(const nh_algebra *g, bool derived, double small, size_t *dimension)
 {
     size_t d = g->d, n = d, length = 0;
@@ -61,6 +62,7 @@ static void random_ad(const nh_algebra *g, uint64_t *seed, double *ad)
     nh_free(y);
 }
 
+/* T ad_y - ad_y T = 0 for `few` random y: (few w^2) x w^2, T by columns. */
 static double *commutant_rows(const nh_algebra *g, uint64_t *seed)
 {
     size_t w = g->d, rows = few * w * w;

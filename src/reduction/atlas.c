@@ -1,3 +1,15 @@
+/* The charts of one reduced motion (atlas.h). At a place q with velocity v, nh_atlas_at gives a chart and its state
+ * z:
+ *
+ *      1. a known chart whose guards are far from zero there
+ *      2. else a new one: its slice (the preferred one if it passes regularly), then its equations
+ *             Chaplygin: by the connection, where there is one;  any group: master.c, with other components as w
+ *             second stage: on the slice of the shape space;  without connection: both groups at once
+ *
+ *      nh_chart_leave: z -> (q, v);   enter: (q, v) -> z.   Where charts fail, the place is moved along its orbit
+ *
+ * The regularity of a chart is the smaller of its guards: a minor over the root of the sum of the squares of all
+ * minors. */
 #include "reduction/atlas.h"
 
 #include <math.h>
@@ -105,6 +117,7 @@ static bool lift(const nh_chaplygin *first, const nh_slice *both, const double *
     return good;
 }
 
+/* The state z = (x, p) of a place and velocity in the chart; false where the slice does not pass there. */
 static bool enter(const nh_atlas *atlas, const nh_reduced_chart *c, const double *q, const double *v, double *z)
 {
     const nh_slice *s = c->slice;
@@ -126,6 +139,7 @@ static bool enter(const nh_atlas *atlas, const nh_reduced_chart *c, const double
     return good;
 }
 
+/* Is q on the slice? */
 static bool passes(const nh_slice *s, const double *q)
 {
     for (size_t a = 0; a < s->d; a++)
@@ -192,6 +206,7 @@ static double connection_regularity(const nh_slice *s, const double *q)
     return isfinite(value) ? value : 0;
 }
 
+/* A copy of q in the kinetic's arena. */
 static const double *copied(const nh_kinetic *k, const double *q)
 {
     double *out = nh_arena_alloc(k->arena, k->m * sizeof *out);
@@ -259,6 +274,7 @@ static bool connected(const nh_slice *first, const double *q)
     return good;
 }
 
+/* A new chart for the place: by the connection where there is one, else by master.c. */
 static bool build(nh_atlas *a, const double *q, const double *pivots, nh_error *error)
 {
     if (a->second && a->both && !connected(a->second->first->slice, q)) return build_both(a, q, pivots, error);

@@ -1,3 +1,9 @@
+/* Symmetries of the kinetic energy of an open chain, joint by joint (the rules and their equations: chain.h).
+ *
+ *      rule: rows that are linear in the coefficients of a twist a (or c)
+ *          null_space      at random states, stacked; in reduced echelon form, whole numbers rounded
+ *          with_symbols    the same relation with the parameters as symbols
+ *          add_field       the field with E^-1 E' = Ad(E)^-1 a (left) or a (right) of this joint, the others at rest */
 #include "reduction/chain.h"
 
 #include <math.h>
@@ -53,6 +59,7 @@ static nh_wrench momentum_behind(const work *w, const nh_joint *j)
     return nh_wrench_outwards(w->dag, &a, &w->behind[j->child]);
 }
 
+/* behind[b]: the momentum of body b and of all behind it, in its frame, from the tips to the ground. */
 static void momenta(work *w)
 {
     const nh_chain *c = w->chain;
@@ -76,6 +83,7 @@ static void momenta(work *w)
     }
 }
 
+/* Is no other body behind this one? */
 static bool carries_nothing(const nh_chain *c, size_t body)
 {
     for (size_t i = 0; i < c->joints; i++)
@@ -210,6 +218,7 @@ static void with_symbols(const work *w, size_t rows, size_t n, const nh_ex *e, c
 
 /* ---- fields ---- */
 
+/* sum_k c_k basis_k. */
 static nh_twist combination(nh_dag *d, size_t n, const nh_twist *basis, const nh_ex *coefficient)
 {
     nh_twist sum;
@@ -359,6 +368,7 @@ static void space_moves(work *w, size_t joint)
     }
 }
 
+/* The four rules for one joint. */
 static void joint_symmetries(work *w, size_t joint)
 {
     const nh_chain *c = w->chain;

@@ -1,3 +1,11 @@
+/* The first stage for V + D = TQ, V cap D = 0 (chaplygin.h; docs/method.md (23)), as expressions on the slice:
+ *
+ *      connection      A = om_e^-1 om_x                                           d x n
+ *      curvature       B^a_ij = d_i A^a_j - d_j A^a_i - C_bc^a A^b_i A^c_j        d x n x n
+ *      metric          Khat = H^T Kf H, H = (1; -A)                               n x n
+ *      gyroscopic      U_lij with Ups_ij = U_lij x'^l = J_a B^a_ij                n x n x n
+ *      drift           A_0, ahat, Vhat, J0 where constraints are affine, L has a part af u, or there are forces
+ *      equations       p_i' = 1/2 x'^T d_i Khat x' + (d_i ahat_j - d_j ahat_i) x'^j - d_i Vhat + force_i */
 #include "reduction/chaplygin.h"
 
 #include <math.h>
@@ -9,11 +17,13 @@
 #include "exact/solve.h"
 #include "graph/dag.h"
 
+/* sum + a b, without nodes for zeros. */
 static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
 {
     return nh_is_zero(d, a) || nh_is_zero(d, b) ? sum : nh_add(d, sum, nh_mul(d, a, b));
 }
 
+/* A by LU factorization of om_e in the graph; fails where om_e is singular: there is no connection. */
 static bool connection(nh_chaplygin *c, nh_error *error)
 {
     const nh_slice *s = c->slice;
@@ -37,6 +47,7 @@ static bool connection(nh_chaplygin *c, nh_error *error)
                            "the orbits of the group meet the constraint distribution: there is no connection");
 }
 
+/* B^a_ij = d_i A^a_j - d_j A^a_i - C_bc^a A^b_i A^c_j, antisymmetric in i and j. */
 static void curvature(nh_chaplygin *c)
 {
     nh_dag *d = c->dag;
@@ -60,6 +71,7 @@ static void curvature(nh_chaplygin *c)
             }
 }
 
+/* J_aj = (Kf_e H)_aj, d x n, and Khat_ij = K_ij - K_ia A^a_j - A^a_i J_aj. */
 static void metric(nh_chaplygin *c)
 {
     const nh_slice *s = c->slice;

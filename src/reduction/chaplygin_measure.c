@@ -1,4 +1,13 @@
-/* chaplygin_measure: invariant measure and conformal factor of a reduced Chaplygin system (chaplygin.h). */
+/* chaplygin_measure: invariant measure and conformal factor of a reduced Chaplygin system (chaplygin.h;
+ * docs/method.md, sec. 9).
+ *
+ *      T^k_ij = (K^-1)^kl U_lij,   Theta_j = T^i_ij
+ *
+ *      measure     d_i Theta_j = d_j Theta_i
+ *      factor      measure, and T^k_ij = th_j delta^k_i - th_i delta^k_j, th = Theta/(n - 1)
+ *
+ *      decide      both modulo primes at random points; else by numbers at the sample points, in the coordinates' units
+ *      many-valued a mean of Theta_j over a full turn of an angle that is not zero */
 #include <math.h>
 #include <string.h>
 
@@ -188,6 +197,7 @@ static bool many_valued(const nh_slice *s, const nh_ex *K, const nh_ex *U, doubl
     return many;
 }
 
+/* The largest |d_i Theta_j - d_j Theta_i|. */
 static double curl_of(const gyro *g)
 {
     double most = 0;

@@ -1,3 +1,11 @@
+/* Closed forms of invariant measures exp(sigma), d_j sigma = -Theta_j (density.h):
+ *
+ *      collect_factors     F: det Khat, its numerator, sums, functions and coordinates in these and in Khat
+ *      sample              d_j log F and -Theta_j at the sample points
+ *      choose              one factor, then two: least squares c_1 d log F_1 + c_2 d log F_2 = -Theta, c rational
+ *      prove               the same as an identity
+ *
+ *      taken: the first that holds for all parameters; else the first that is proved; else the first that fits */
 #include "reduction/density.h"
 
 #include <math.h>
@@ -19,6 +27,7 @@ typedef struct {
     nh_ex factor[most_factors], node[most_seen];
 } search;
 
+/* Does e depend on the shape? */
 static bool moves(const search *s, nh_ex e)
 {
     for (size_t i = 0; i < s->n; i++)
@@ -26,6 +35,7 @@ static bool moves(const search *s, nh_ex e)
     return false;
 }
 
+/* Adds a factor that depends on the shape and is not there. */
 static void offer(search *s, nh_ex e)
 {
     for (size_t i = 0; i < s->factors; i++)

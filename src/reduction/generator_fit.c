@@ -1,3 +1,11 @@
+/* The combinations of a library's fields that leave a system invariant, as null vectors (generator_fit.h).
+ *
+ *                       column: field b_k d/dq^(i_k)
+ *      place 1   L_xi K      m (m + 1)/2 rows               A c = 0 relative to B c:
+ *                xi(V)       1 row                          B: the values of the fields at the places
+ *                xi(f^a)     f rows
+ *                L_xi Q      m rows                         each kind in units of its own terms
+ *      place 2   .. */
 #include "reduction/generator_fit.h"
 
 #include <math.h>
@@ -84,6 +92,7 @@ static double size_of(const nh_generator_fit *s, const double *K, size_t r)
     return own > 0 ? own : 1 / (s->scale[r] * s->scale[r]);
 }
 
+/* (L_xi K)_rs over (K_rr K_ss)^(1/2). */
 static void metric_rows(const nh_generator_fit *s, layout y, const double *z, nh_relative *out)
 {
     size_t m = s->m;
@@ -149,6 +158,7 @@ static void force_rows(const nh_generator_fit *s, layout y, const double *z, con
     }
 }
 
+/* All rows of one place; false where something is not finite. */
 static bool place_rows(const nh_generator_fit *s, layout y, nh_tape *tape, nh_tape_work *work, size_t p, double *z,
                        nh_relative *out)
 {
@@ -195,6 +205,7 @@ static bool wants_more(const nh_generator_fit *s, size_t places, const nh_relati
     return places < unknown + spare || nh_relative_wants_more(r);
 }
 
+/* Rows of as many places as the columns need. */
 static void collect(nh_generator_fit *s, nh_relative *out)
 {
     layout y = lay_out(s);

@@ -1,3 +1,14 @@
+/* Closed forms of the infinitesimal symmetries (generators.h; docs/method.md, sec. 8):
+ *
+ *      level 1, 2, ..      a library of functions for the components              library.c
+ *      null vectors         conditions at sample points, relative to the values    generator_fit.c
+ *      refit                each vector on its own terms only
+ *      coefficients         rationals; else an exact relation over the parameters; else simple forms of the numbers
+ *      check                each field by itself: metric, potential, constraints, forces       invariance.c
+ *      until there are as many as the jets say; where some are missing, fields of earlier levels and brackets are added
+ *
+ * Where vectors hold to rounding only, as with a small coupling, the exact relations among the conditions on all
+ * fields of the library give the combinations that are symmetries. */
 #include "reduction/generators.h"
 
 #include <math.h>
@@ -61,6 +72,7 @@ static void normalise(nh_generator_fit *s, const size_t *order, size_t r)
 
 /* ---- exact coefficients ---- */
 
+/* Coefficients as rationals, or as recognised numbers; false: one of them stays a decimal. */
 static bool rational(nh_generator_fit *s, size_t r, nh_ex *coefficient)
 {
     enum { largest_denominator = 1000 };
@@ -77,6 +89,7 @@ static bool rational(nh_generator_fit *s, size_t r, nh_ex *coefficient)
     return all;
 }
 
+/* component^i = sum_k c_k b_k over the columns of coordinate i. */
 static void assemble(const nh_generator_fit *s, const nh_ex *coefficient, nh_ex *component)
 {
     nh_dag *d = s->k->dag;
@@ -226,6 +239,7 @@ static void make_generators(nh_generator_fit *s, size_t wanted, nh_generators *o
     nh_free(coefficient);
 }
 
+/* How many of the fields hold for all parameters. */
 static size_t for_all_parameters(const nh_kinetic *k, const nh_generators *found)
 {
     size_t n = 0;
@@ -265,6 +279,7 @@ static outcome one_library(nh_generators *out, const nh_kinetic *k, const nh_jet
     return o;
 }
 
+/* Are there as many fields as the jets count? */
 static bool complete(const nh_generators *found, const nh_jets *jets)
 {
     return jets && found->count >= jets->dimension;

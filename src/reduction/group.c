@@ -1,3 +1,13 @@
+/* The symmetry group of a system, its name, and the subgroups for reductions (group.h).
+ *
+ *      jets                how many local symmetries, and their algebra, without closed forms
+ *      generators          their closed forms, level by level of the library
+ *      action              constants, ranks at sample points
+ *      report, circles     which ideals; which one-dimensional pieces close after a turn
+ *      find_global         the subalgebra of fields that are single-valued on all angles
+ *      subsets             for Chaplygin's case subalgebras of dimension f, transversal to D at all sample points, the
+ *                          best by global symmetries, a large normaliser, .. (better); otherwise free ones of one size
+ */
 #include "reduction/group.h"
 
 #include <math.h>
@@ -125,6 +135,7 @@ static size_t circles(const nh_group *g, const nh_options *options)
     return rank;
 }
 
+/* "SE(2) x SO(2)^3" from the pieces and the circles. */
 static void name_group(nh_group *g, const nh_options *options)
 {
     static const double rounding = 1e-10;

@@ -1,3 +1,9 @@
+/* The bracket of a Lie algebra along a chain of ideals (ideal_chain.h, [CendraDiaz2018, eq. 14]).
+ *
+ *      g = n_0  >  n_1  >  n_2  > ..          basis vectors in order:  [ block 0 | block 1 | block 2 .. ]
+ *
+ *      H_j: a vector of block j less its g0-projection on what lies behind it, so that xi = H_0 xi_0 + H_1 xi_1 + ..
+ *      [e, f] in parts = within blocks (block_i, -a_j) + across blocks (b_j of e, less b_j of f) */
 #include "reduction/ideal_chain.h"
 
 #include <math.h>
@@ -87,6 +93,7 @@ void nh_ideals_clear(nh_ideals *c)
     *c = (nh_ideals){0};
 }
 
+/* The number of elements of the set. */
 static size_t bits(unsigned long set)
 {
     size_t n = 0;
@@ -94,6 +101,7 @@ static size_t bits(unsigned long set)
     return n;
 }
 
+/* Is the span of these basis vectors an ideal of the whole algebra? */
 static bool spans_ideal(const nh_algebra *g, unsigned long set)
 {
     size_t d = g->d;

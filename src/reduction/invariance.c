@@ -1,3 +1,6 @@
+/* Does a field leave a system invariant (the conditions: invariance.h)? Three answers for each of metric, potential,
+ * constraints and forces: the largest relative residual at the sample points; exactly, by normal forms, for the given
+ * parameters; and for all parameters. A residual is relative to the moduli of the terms of its equation. */
 #include "reduction/invariance.h"
 
 #include <math.h>
@@ -34,6 +37,7 @@ static nh_ex prolonged(const nh_kinetic *k, const nh_ex *xi, nh_ex e)
 
 static bool plain(const nh_kinetic *k) { return k->quadratic && !k->magnetic && k->autonomous; }
 
+/* (L_xi K)_rs = xi^l d_l K_rs + K_ls d_r xi^l + K_rl d_s xi^l */
 static nh_ex metric_equation(const nh_kinetic *k, const nh_ex *xi, size_t r, size_t s)
 {
     nh_dag *d = k->dag;
@@ -92,6 +96,7 @@ static double relative_size(nh_tape *tape, nh_tape_work *work, const double *z, 
 /* A size for e to be compared with: the sum of the moduli of its terms, plus `unit`. */
 static nh_ex size_of(nh_dag *d, nh_ex e, nh_ex unit) { return nh_add(d, unit, nh_terms_moduli(d, e)); }
 
+/* The largest |e_i| over its terms and its unit, at the sample points. */
 static double largest_residual(const nh_kinetic *k, size_t n, const nh_ex *e, const nh_ex *unit)
 {
     size_t m = k->m, width = 1 + 2 * m;

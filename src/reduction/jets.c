@@ -1,3 +1,15 @@
+/* All local symmetries from jets at one point (jets.h; docs/method.md (20), (21)).
+ *
+ *      q0 --------- ray 1 --------> q1         jets (xi, B), (L_xi K)(q0) = 0: m (m + 1)/2 columns of m + m^2 numbers
+ *       \                        /
+ *        \--- ray 2 --> q2 --- triangle        at each end: rows (L_xi K), xi(V), L_xi omega on D, .. of every column
+ *         \                                    around a triangle: the jet must come back as it was
+ *          ...
+ *
+ *      null vectors of all rows = local symmetries: as many as are counted modulo a prime (symmetry_count.h) where that
+ *      is possible, else as there are small singular values; brackets from the jets at q0
+ *
+ * After the first ray only the jets that may still be symmetries go on. */
 #include "reduction/jets.h"
 
 #include <math.h>
@@ -99,6 +111,7 @@ static void combine(const nh_jet_conditions *s, const double *jets, const double
         }
 }
 
+/* The ranks of the rows kind by kind, the null vectors, and the algebra. */
 static void conclude(nh_jet_conditions *s, const double *jets, const double *moved, nh_jets *out)
 {
     size_t n = s->columns, size = s->t.size, length = size * n;
@@ -159,6 +172,7 @@ static size_t rays_wanted(const nh_jet_conditions *s)
     return wanted < rays ? rays : wanted > most_rays ? most_rays : wanted;
 }
 
+/* Rays, triangles, and the conclusion. */
 static void run(nh_jet_conditions *s, nh_jets *out)
 {
     size_t m = s->m, length = s->t.size * s->columns, wanted = rays;

@@ -1,3 +1,9 @@
+/* A system as K, a, V, omega, b and Q at sample points (kinetic.h).
+ *
+ *      read_lagrangian     K_rs = d2L/dv^r dv^s, a_s = dL/dv^s at rest, V = -L at rest; anything that is left over is
+ *                          recorded: explicit time, a Lagrangian that is not quadratic
+ *      read_constraints    omega^A_s = df^A/dv^s, b^A = f^A at rest, poles taken out first
+ *      take_places         positions and velocities from the box; those nearest to singular metrics are left out */
 #include "reduction/kinetic.h"
 
 #include <math.h>
@@ -19,6 +25,7 @@ static bool depends_on_any(const nh_dag *d, nh_ex e, size_t n, const nh_ex *symb
     return false;
 }
 
+/* e with all velocities zero. */
 static nh_ex at_rest(const nh_kinetic *k, nh_ex e)
 {
     nh_ex *zero = nh_alloc_array(k->m, sizeof *zero);
@@ -95,6 +102,7 @@ static bool positive(size_t m, double *K)
     return true;
 }
 
+/* Is K positive definite at the sample points? */
 static bool has_metric(const nh_kinetic *k)
 {
     enum { trials = 8 };
@@ -229,6 +237,7 @@ static void take_places(nh_kinetic *k, uint64_t seed)
     nh_free(good);
 }
 
+/* Do the forces not contain the time? */
 static bool forces_autonomous(const nh_kinetic *k)
 {
     for (size_t s = 0; s < k->m && k->forced; s++)
@@ -236,6 +245,7 @@ static bool forces_autonomous(const nh_kinetic *k)
     return true;
 }
 
+/* What keeps the system from the form of kinetic.h, in words; NULL: nothing. */
 static const char *obstacle_of(const nh_kinetic *k)
 {
     if (!k->quadratic) return "the Lagrangian is not quadratic in the velocities";
@@ -324,6 +334,7 @@ nh_ex nh_kinetic_diff(const nh_kinetic *k, nh_ex e, nh_ex x)
     return nh_interrupted() ? nh_int(k->dag, 0) : nh_diff(k->dag, e, x);
 }
 
+/* Values of `count` expressions of q at the places: places x count. */
 static void run(const nh_kinetic *k, size_t count, const nh_ex *e, size_t places, const double *q, double *out)
 {
     nh_tape *tape = nh_kinetic_tape(k, count, e);

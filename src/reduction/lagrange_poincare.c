@@ -1,4 +1,6 @@
-/* lagrange_poincare: elimination in the graph of expressions; short results are simplified. */
+/* lagrange_poincare: the objects of the Lagrange-d'Alembert-Poincare equations (docs/method.md (26)), by elimination
+ * in the graph of expressions; short results are simplified. In order: chi (vertical), I (inertia), A (orthogonal), B
+ * (curvature), then v, omega, mu, Kh, pi (momenta) and dl/dx^i (slopes). */
 #include "reduction/lagrange_poincare.h"
 
 #include "exact/normal.h"

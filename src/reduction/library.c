@@ -1,3 +1,11 @@
+/* Functions for the components of infinitesimal generators (the levels: library.h).
+ *
+ *      column k = (function b_k of q, coordinate i_k):   the field b_k d/dq^(i_k)
+ *
+ *      for each coordinate j: factors of this level      1, sin q, cos q, q, .., those of the system in q_j alone
+ *      for each component i: products of the factors of the coordinates on which it depends, by the jets
+ *
+ * Functions with a pole near the sample points are left out, because their columns would dominate the others. */
 #include "reduction/library.h"
 
 #include <math.h>
@@ -16,6 +24,7 @@ typedef struct {
     nh_ex e[most_factors];
 } factors;
 
+/* Adds a factor that is not there. */
 static void put(factors *f, nh_ex e)
 {
     for (size_t i = 0; i < f->count; i++)
@@ -47,6 +56,7 @@ static nh_ex *functions_of_system(const nh_kinetic *k, size_t *count)
     return out;
 }
 
+/* Is the call e a sine, a cosine or a tangent? */
 static bool circular(const nh_dag *d, nh_ex e)
 {
     nh_function f = nh_function_of(d, e);
@@ -146,6 +156,7 @@ static void factors_of(const nh_kinetic *k, size_t j, int level, factors *f)
     nh_free(found);
 }
 
+/* Adds a column for one component. */
 static void add(nh_library *l, const nh_kinetic *k, nh_ex e, size_t component)
 {
     size_t was = l->capacity, same = l->capacity, also = l->capacity;
@@ -240,6 +251,7 @@ static nh_ex divisor(const nh_kinetic *k, size_t i)
     return 0;
 }
 
+/* Columns from `first` on: each function over `by`. */
 static void divide(nh_library *l, const nh_kinetic *k, size_t first, nh_ex by)
 {
     for (size_t j = first; j < l->count; j++) {

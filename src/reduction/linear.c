@@ -1,3 +1,7 @@
+/* Momenta with p_a' = x' N_a^b(x) p_b (linear.h): N from the second derivatives of p' by the velocities, N = b
+ * M_GG^-1, with b_ab the coefficient of x' nu_b in p_a'; all other terms, in nu nu and x' x', must vanish at the
+ * shapes of the sample points. The matrix Y(x) with dY/dx = N Y is integrated along a motion, and Y^-1 p has to stay.
+ */
 #include "reduction/linear.h"
 
 #include <math.h>

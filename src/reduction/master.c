@@ -1,4 +1,10 @@
-/* master: the equations of a symmetric system on a slice, for any group and any constraints (reduced.h). */
+/* master: the equations of a symmetric system on a slice, for any group and any constraints (reduced.h;
+ * docs/method.md (22)).
+ *
+ *      u = (x', zeta) = rho w + c          rho: m x r, c: m;  omf u + bf = 0 solved for the dependent components
+ *      (pi, mu) = Kf u + af                momenta in the frame
+ *      M_ij = rho_i . Kf rho_j             what is integrated: p = M w, the part of rho_i . (pi, mu) linear in w
+ *      p_i' = rho_i^j (frame force)_j + x'^j d_j rho_i . (pi, mu) + rho_i . Qf - rate of the rest */
 #include <string.h>
 
 #include "graph/diff.h"
@@ -41,6 +47,7 @@ static bool solve_constraints(const nh_slice *s, const size_t *independent, nh_e
     return good || nh_fail(error, NH_NUMERIC, "", "the constraints cannot be solved on the slice");
 }
 
+/* sum_k a_k b_k with strides. */
 static nh_ex dot(nh_dag *d, size_t n, const nh_ex *a, size_t stride, const nh_ex *b, size_t step)
 {
     nh_ex sum = nh_int(d, 0);
@@ -94,6 +101,7 @@ static void name_velocities(nh_reduced *o, const nh_slice *s, const size_t *inde
     }
 }
 
+/* The minors that must stay away from zero: of the constraints' dependent columns, of the generators on the slice. */
 static void guard(nh_reduced *o, const nh_slice *s, const size_t *independent)
 {
     size_t n = 0, *columns = nh_alloc_array(s->f + 1, sizeof *columns);

@@ -51,6 +51,7 @@ static nh_ex contracted(const work *w, const nh_ex *inv, const nh_ex *U, size_t 
     return tidy(w, sum);
 }
 
+/* T^k_ij = (Khat^-1)^kl U_lij at (k n + i) n + j, antisymmetric in i and j, and Theta_j = T^i_ij. */
 static bool tensor(work *w, const nh_ex *K, const nh_ex *U)
 {
     size_t n = w->n;

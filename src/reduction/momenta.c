@@ -1,3 +1,12 @@
+/* Conserved momenta f^a J_a of fields f^a e_a (momenta.h; docs/method.md, sec. 9):
+ *
+ *      columns       b_j(q) e_a, b_j products of at most two functions of the library
+ *      rows          at each sample point omega(f^a e_a) = 0 and sym_ij X_i(f^a) K(X_j, e_a) = 0, X_i a basis of D
+ *      null space -> coefficients, exact where relations are found -> momenta
+ *      sort_out      drops functions of those found before and of what constraints keep constant (ranks modulo primes);
+ *                    c^a J_a with constants on the submanifold is named after its symmetry
+ *
+ * With affine constraints, magnetic terms or forces f is constant, and f^a e_a . Q has to vanish. */
 #include "reduction/momenta.h"
 
 #include <math.h>
@@ -382,6 +391,7 @@ nh_proof nh_momenta_horizontal(const nh_action *g, const double *c, bool offset,
     return proof;
 }
 
+/* 1/2 v K v + V. */
 static nh_ex energy_of(const nh_kinetic *k)
 {
     nh_dag *d = k->dag;

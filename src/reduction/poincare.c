@@ -1,3 +1,12 @@
+/* The Lagrange-d'Alembert-Poincare equations at sample points, against the true accelerations (poincare.h).
+ *
+ *      values of K, omega, V and their first derivatives in the frame      place_values
+ *      A and its derivatives: bordered system of K_ee and om_e             connection, curvature
+ *      u' from the equations with multipliers in the same frame            accelerations
+ *      both sides of (26) in one stage, and by stages along the chain      vertical, horizontal
+ *      ad* in one stage and by stages                                      euler_poincare
+ *
+ * Each residual is relative to the sum of the moduli of its terms, so that it tells rounding from a wrong equation. */
 #include "reduction/poincare.h"
 
 #include <math.h>
@@ -216,6 +225,7 @@ static void distribution(place *p, double small)
     nh_free(forms);
 }
 
+/* <a, b> = sum_k a_k b_k. */
 static double pairing(size_t d, const double *a, const double *b)
 {
     double sum = 0;
@@ -223,6 +233,7 @@ static double pairing(size_t d, const double *a, const double *b)
     return sum;
 }
 
+/* off|/size; |off| where there is no size. */
 static double beside(double off, double size) { return size > 0 ? fabs(off) / size : fabs(off); }
 
 /* sum_bc |c^a_bc x_b y_c| */
@@ -283,6 +294,8 @@ typedef struct {
     double *zeta, *bracket, *pa, *pb, *pc, *beta, *phi, *terms, *unit; /* d each */
 } scratch;
 
+/* mu'(chi) = mu([zeta, chi]) for each chi, with zeta = v - A x': in one stage, by stages, and the bracket itself by
+ * stages. */
 static void vertical(const place *p, const nh_ideals *c, const scratch *t, nh_poincare *out)
 {
     const nh_algebra *g = &p->s->action->algebra;
@@ -309,6 +322,7 @@ static void vertical(const place *p, const nh_ideals *c, const scratch *t, nh_po
     }
 }
 
+/* pi_i' against dl/dx^i - mu_a B^a_ji x'^j + mu([A_i, v]) for each i, in one stage and by stages. */
 static void horizontal(const place *p, const nh_ideals *c, const scratch *t, nh_poincare *out)
 {
     const nh_algebra *g = &p->s->action->algebra;

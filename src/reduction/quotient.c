@@ -1,3 +1,9 @@
+/* Reduction of the equations themselves, for systems to which nothing else applies (quotient.h; docs/method.md (27)).
+ *
+ *      prolong       eta_a from R eta_a = rho^r d_r e_a - e_a^r d_r rho            n velocities for each generator
+ *      on the slice  zeta from e_a^y zeta^a = rho^y                               d x d
+ *      reduced       x' = rho^x - zeta^a e_a^x,   w' = a - zeta^a eta_a
+ *      energy        constant along Gamma at the chart's probes? then it is shown as conserved */
 #include "reduction/quotient.h"
 
 #include <math.h>

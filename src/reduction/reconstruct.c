@@ -1,3 +1,13 @@
+/* The full motion from a reduced one (reconstruct.h): the reduced state, the group's coordinates and the place
+ * together.
+ *
+ *      state of one part:   [ x (n) | p (r) | t (d) | q (m) ]           t: factors of g since the last restart
+ *
+ *      part 1 --guard of M--> factors kept, t = 0 --> part 2 --guard of the chart--> another chart of the atlas --> ..
+ *                                                                      |
+ *         nothing regular at the end of the part: back to the last output, a chart made for that place
+ *
+ *      outputs: q from the place in the state, or moved by the kept factors, flow after flow */
 #include "reduction/reconstruct.h"
 
 #include "motion/automatic.h"
@@ -159,6 +169,7 @@ static bool go_on(course *c, const nh_motion *motion, bool renew)
     return good;
 }
 
+/* The note: why the motion ended, in words. */
 static void explain(course *c, const nh_motion *motion, bool found, const double *times)
 {
     nh_reconstruction *out = c->out;
@@ -207,6 +218,7 @@ static void least_sizes(const course *c, const double *place, double *least)
     nh_free(q);
 }
 
+/* All parts up to the last output, or until no chart continues. */
 static bool run(course *c, size_t count, const double *times, const nh_reconstruct_how *how, nh_error *error)
 {
     enum { most_stretches = 10000 };

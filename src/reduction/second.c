@@ -1,3 +1,13 @@
+/* The second stage of a reduced Chaplygin system (second.h; docs/method.md (24), (25)).
+ *
+ *      fields of the whole system that normalise the first group
+ *          descend            their parts zeta on the shape space
+ *          candidates         combinations whose work zeta^i force_i vanishes: condition (ii), exactly or by numbers
+ *          conditions         (i) Khat, V, Ups invariant: residuals
+ *      hat_system             Khat and V as a system of its own, with N acting on it
+ *          slice              of the shape space, in the frame (d_i, e_a)
+ *          I, Av, Kt, Bv      locked inertia, mechanical connection, metric of the rest, curvature
+ *          equations          (25) */
 #include "reduction/second.h"
 
 #include <math.h>
@@ -72,11 +82,13 @@ static double *interior(const nh_chaplygin *f, const nh_ex *zeta, size_t places)
     return out;
 }
 
+/* The sample points that are used. */
 static size_t places_of(const nh_chaplygin *f)
 {
     return f->slice->kinetic->places < most_places ? f->slice->kinetic->places : most_places;
 }
 
+/* max |U_lij| at the sample points, the unit of condition (ii). */
 static double largest_U(const nh_chaplygin *f)
 {
     size_t places = places_of(f), cube = f->n * f->n * f->n;
@@ -300,6 +312,7 @@ static void general_conditions(nh_second *s)
     nh_free(value);
 }
 
+/* The largest relative residuals of (i), (ii) and (ii') over the sample points. */
 static void conditions(nh_second *s)
 {
     if (!s->first->plain) {

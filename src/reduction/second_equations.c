@@ -15,6 +15,7 @@ static nh_ex plus(nh_dag *d, nh_ex sum, nh_ex a, nh_ex b)
 
 static nh_ex tidy(const nh_second *s, nh_ex e) { return s->slice.tidy ? nh_simplify(s->slice.dag, e) : e; }
 
+/* I = Khat_ee, Av = I^-1 Khat_ex and Kt = Khat_xx - Av^T Khat_ex. */
 static bool connection(nh_second *s)
 {
     const nh_slice *c = &s->slice;
@@ -40,6 +41,7 @@ static bool connection(nh_second *s)
     return good;
 }
 
+/* Bv^a_ij = d_i Av^a_j - d_j Av^a_i - C_bk^a Av^b_i Av^k_j. */
 static void curvature(nh_second *s)
 {
     nh_dag *d = s->slice.dag;

@@ -1,3 +1,16 @@
+/* The data of a symmetric system on a slice y = y0 (slice.h; docs/method.md, sec. 9).
+ *
+ *      Q (m)        orbit of G           frame at sigma(x):   Fr = [ d/dx^1 .. d/dx^n | e_1 .. e_d ]     m x m
+ *       |  .........|.........
+ *       | /         |         /          Kf = Fr^T K Fr = [ K_xx  K_xe ]      omf = omega Fr = [ om_x  om_e ]
+ *       |/    sigma(x)       /                            [ K_ex  K_ee ]
+ *       +-----------o-------/  y = y0
+ *                   x (n)
+ *
+ * First the coordinates y: of all sets of d rows of E, scaled by the metric to columns of length one, that whose
+ * least singular value over the places is the largest; of nearly equal ones the coordinates that the file calls
+ * dependent. Then y0: simple values where K, V and the constraints are regular, so that entries are exact and can be
+ * simplified. */
 #include "reduction/slice.h"
 
 #include <math.h>
@@ -37,6 +50,7 @@ static double *scaled_generators(const nh_action *g, size_t places, const double
     return E;
 }
 
+/* The least singular value of these rows of E over the places. */
 static double worst_minor(size_t m, size_t d, size_t places, const double *E, const size_t *rows)
 {
     double *minor = nh_alloc_array(d * d + d + 1, sizeof *minor), *s = minor + d * d, least = INFINITY;
@@ -50,6 +64,7 @@ static double worst_minor(size_t m, size_t d, size_t places, const double *E, co
     return least;
 }
 
+/* The next set of d indices below m in lexicographic order; false behind the last. */
 static bool next_subset(size_t m, size_t d, size_t *index)
 {
     for (size_t i = d; i-- > 0;) {
@@ -129,6 +144,7 @@ static void frame_metric(nh_slice *s, const nh_ex *frame, const nh_ex *K)
     nh_free(half);
 }
 
+/* omf = omega Fr, f x m. */
 static void frame_forms(nh_slice *s, const nh_ex *frame, const nh_ex *omega)
 {
     nh_dag *d = s->dag;
@@ -142,6 +158,7 @@ static void frame_forms(nh_slice *s, const nh_ex *frame, const nh_ex *omega)
         }
 }
 
+/* y as an expression: a whole number or pi/2 exactly; `tidy` ends where it is neither. */
 static nh_ex exact(nh_slice *s, double y)
 {
     static const double right_angle = 1.5707963267948966;
@@ -286,6 +303,7 @@ static bool metric_regular(const nh_kinetic *k, const double *p, const double *q
     return good || !told;
 }
 
+/* Are E on these rows and the data of the system regular on the slice y, beside the first few sample points? */
 static bool regular_at(const nh_action *g, const size_t *along, const double *y)
 {
     enum { trials = 8 };

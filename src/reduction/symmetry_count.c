@@ -1,3 +1,14 @@
+/* The number of local symmetries modulo a prime (symmetry_count.h).
+ *
+ *      for each of two primes:
+ *          q0 random, K, V, omega, .. as power series along q0 + s (X + u Y)
+ *          until two rays in a row add no rank:
+ *              jets as columns, transported as series in s, and to first order in u
+ *              metric rows       d_u xi - s B Y,  d_u B - s (rate of B along Y)
+ *              potential rows    xi(V)
+ *              constraint rows   (L_xi omega)(X), .. on D, forces
+ *          bound = columns - rank, for the metric alone, with the potential, with everything
+ *      the smaller bound of the two */
 #include "reduction/symmetry_count.h"
 
 #include <string.h>
@@ -36,6 +47,7 @@ static void lay_out(nh_count_rays *c)
     l->total = n;
 }
 
+/* d e/dq^s. */
 static nh_ex slope(const nh_count_rays *c, nh_ex e, size_t s) { return nh_kinetic_diff(c->k, e, c->k->q[s]); }
 
 static void list(nh_count_rays *c, nh_ex *e)
@@ -92,6 +104,7 @@ static const char *take(nh_count_rays *c)
 
 /* ---- rows ---- */
 
+/* Rows for one kind of condition, into its echelon form. */
 static void append(nh_count_rays *c, int kind, size_t rows, const nh_residue *row)
 {
     size_t n = c->columns;
@@ -166,6 +179,7 @@ static void put(const nh_count_rays *c, const nh_residue *from, size_t at, size_
         row[(at * (NH_RAY_ORDER + 1) + power) * c->columns + column] = from[nh_ray_index(c, power, 0)];
 }
 
+/* xi(V), power by power. */
 static void potential_rows(nh_count_rays *c)
 {
     size_t m = c->m, rows = (1 + m) * (NH_RAY_ORDER + 1), size = c->ring->size;

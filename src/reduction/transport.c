@@ -1,3 +1,8 @@
+/* Jets along straight lines (docs/method.md (20)): with X the direction and G = Gamma(., X),
+ *
+ *      xi' = B X,     B' = -( xi^l dG_l - B G + G B + Gamma(., B X) )          m + m^2 numbers for each jet
+ *
+ * in coordinates scaled by the metric at q0. A line on the way to a zero of det K is not followed. */
 #include "reduction/transport.h"
 
 #include <math.h>
@@ -10,6 +15,7 @@
 
 static size_t packed(size_t i, size_t j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
 
+/* K, its first and its second derivatives, packed: K_ij for i >= j. */
 static nh_tape *metric_tape(const nh_kinetic *k)
 {
     size_t m = k->m, h = m * (m + 1) / 2, n = 0;
@@ -59,6 +65,7 @@ void nh_transport_clear(nh_transport *t)
     nh_free(t->raw);
 }
 
+/* a^-1 for m x m. */
 static bool invert(size_t m, const double *a, double *inverse)
 {
     double *copy = nh_alloc_array(m * m, sizeof *copy);

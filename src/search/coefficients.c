@@ -1,3 +1,11 @@
+/* coefficients: the attempts, in their order.
+ *
+ *     refine              many digits; below the option `digits` it is no current
+ *     relation_of         sum_j c_j Gamma(b_j) = 0 over the parameters            (15), integrals/fixed.h
+ *                         with letters for numbers inside of terms                (15b), integrals/letters.h
+ *                         with the coefficients of its field, where (15) is too large   (15c), integrals/companion.h
+ *                         modulo primes, for all parameters                                   count/lift.h
+ *     recognise           each coefficient by itself as a simple number */
 #include "search/coefficients.h"
 
 #include <math.h>
@@ -109,6 +117,7 @@ static bool exact_coefficients(const nh_model *model, const nh_candidate *c, con
 
 /* ---- many digits ---- */
 
+/* The same up to a millionth of the largest? */
 static bool near(size_t n, const double *a, const double *b)
 {
     double largest = 0, worst = 0;
@@ -137,6 +146,7 @@ static bool drop_constant_terms(const nh_model *model, nh_candidate *c, const nh
     return n < before;
 }
 
+/* Numbers inside of terms first, then the coefficients, that of the pivot being 1. */
 static nh_refined refine_terms(const nh_model *model, const nh_candidate *c, const nh_options *options)
 {
     bool *leading = nh_alloc_array(c->count + 1, sizeof *leading);
@@ -179,6 +189,7 @@ static void refine(const nh_model *model, nh_candidate *c, const nh_options *opt
 
 /* ---- the whole ---- */
 
+/* sum_j k_j b_j, or with the fitted coefficients. */
 static nh_ex combination(nh_dag *d, const nh_candidate *c, const nh_ex *k)
 {
     nh_ex phi = nh_int(d, 0);

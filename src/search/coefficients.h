@@ -1,8 +1,8 @@
 /* coefficients: from fitted numbers to exact ones, or to as many digits as a decision needs.
  *
- * First a fit in ball arithmetic, which distinguishes a true current from one that is only nearly conserved; then exact
- * relations of the terms' rates over the field of the parameters; over the rationals at the parameters' values; simple
- * numbers.  [docs/method.md, sec. 6] */
+ * First a fit in ball arithmetic, which distinguishes a true current from one that is only nearly conserved; then
+ * exact relations of the terms' rates over the field of the parameters; over the rationals at the parameters' values;
+ * simple numbers.  [docs/method.md, sec. 4, "Refinement" and "Exact coefficients"] */
 #ifndef NH_COEFFICIENTS_H
 #define NH_COEFFICIENTS_H
 

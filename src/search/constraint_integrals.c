@@ -1,3 +1,8 @@
+/* constraint_integrals: functions of (t, q) that the constraints keep constant. [docs/method.md, sec. 2]
+ *
+ *     nh_integrals_find             a search without velocities: coordinates to degree four, functions, potentials of
+ *                                   constraints that are total derivatives
+ *     nh_integrals_of_constraints   which of the currents of (t, q) are new beside the given position constraints */
 #include "search/searches.h"
 
 #include "exact/normal.h"
@@ -10,6 +15,7 @@
 
 enum { generic_count = 24, own_seed = 505 };
 
+/* Is e a function of t and q? */
 static bool only_events(const nh_model *model, nh_ex e)
 {
     for (size_t j = 1 + model->m; j < model->width; j++)
@@ -74,6 +80,7 @@ typedef struct {
     nh_ex event[most_functions], function[most_functions];
 } alphabet;
 
+/* Adds a function of (t, q), once. */
 static void letter(const nh_model *model, alphabet *a, nh_ex e)
 {
     if (!only_events(model, e) || a->functions == most_functions) return;

@@ -1,4 +1,9 @@
-/* The degree of an ansatz in the velocities, and the count at this degree alone. */
+/* counted: is a stage worth its time?
+ *
+ *     degree of the ansatz in the velocities -> count of that degree (count/count.h) -> nothing new: leave it out
+ *
+ * Answers are kept: `covered` up to a degree, `open` while the number of independent currents stays, `beyond` for
+ * what cannot be counted. [docs/method.md, sec. 10] */
 #include "search/counted.h"
 
 #include <math.h>
@@ -22,6 +27,8 @@ bool nh_counted_has_velocities(const nh_model *model, nh_ex e)
     return has;
 }
 
+/* 0 without velocities, 1 of a velocity; of a sum the largest, of a product the sum of degree times power; else
+ * infinite. */
 double nh_counted_degree_of(const nh_model *model, nh_ex e)
 {
     nh_dag *d = model->dag;

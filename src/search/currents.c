@@ -1,3 +1,14 @@
+/* currents: what a null vector has to pass before it is a current.
+ *
+ *     nh_echelon_refine                 a short support, fitted again
+ *     nh_coefficients_assemble          many digits, exact coefficients, letters for numbers inside of terms
+ *     heldout_residual                  points that no fit has seen
+ *     nh_prove_claim                    proof, or digits in balls                  [docs/method.md, sec. 4]
+ *     keeps                             no certificate: left out, perhaps as almost conserved
+ *     nh_currents_hold, _continue       everywhere? else a piece, or its continuation [docs/method.md, sec. 5]
+ *     nh_described_fill                 symmetry, kind, words
+ *
+ * At the end all currents are ranked once more: doubles propose, balls decide. */
 #include "search/currents.h"
 
 #include <float.h>
@@ -105,6 +116,7 @@ static void decide_ranks(nh_analysis *result, const nh_ex *phi, nh_independence 
     nh_free(list);
 }
 
+/* kind and rank of all currents in their order, names, and relations of those that are dependent. */
 static void independence(nh_analysis *result, const nh_points *generic)
 {
     const nh_current_list *list = result->list;
@@ -419,22 +431,6 @@ bool nh_currents_add_series(nh_current_checker *checker, nh_ex phi, const nh_ser
     if (meaning) f.meaning = meaning;
     nh_current_list_append(result, &f);
     return true;
-}
-
-static bool is_certified_only(const nh_current *f) { return !f->proof.proved && !f->series; }
-
-size_t nh_currents_set_aside(nh_current_checker *checker, nh_current **aside)
-{
-    return nh_current_list_take_all(checker->result, is_certified_only, aside);
-}
-
-void nh_currents_take_back(nh_current_checker *checker, size_t n, const nh_current *aside)
-{
-    for (size_t k = 0; k < n; k++) {
-        const nh_current *f = &aside[k];
-        if (f->independence == NH_INDEPENDENT && nh_currents_known(checker, f->phi, f->proof.proved)) continue;
-        nh_current_list_append(checker->result, f);
-    }
 }
 
 /* The energy is expected to be conserved: where it is not, a warning says so, with its rate when that is short. */

@@ -3,6 +3,7 @@
 
 #include "integrals/refine.h"
 #include "search/currents.h"
+#include "search/current_list.h"
 
 static size_t unite(nh_current_checker *checker, nh_ex *term, bool *leading)
 {
@@ -59,4 +60,22 @@ size_t nh_currents_join(nh_current_checker *checker, const nh_points *fit)
     nh_free(leading);
     nh_free(term);
     return added;
+}
+
+/* ---- certified ones, aside ---- */
+
+static bool is_certified_only(const nh_current *f) { return !f->proof.proved && !f->series; }
+
+size_t nh_currents_set_aside(nh_current_checker *checker, nh_current **aside)
+{
+    return nh_current_list_take_all(checker->result, is_certified_only, aside);
+}
+
+void nh_currents_take_back(nh_current_checker *checker, size_t n, const nh_current *aside)
+{
+    for (size_t k = 0; k < n; k++) {
+        const nh_current *f = &aside[k];
+        if (f->independence == NH_INDEPENDENT && nh_currents_known(checker, f->phi, f->proof.proved)) continue;
+        nh_current_list_append(checker->result, f);
+    }
 }

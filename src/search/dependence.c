@@ -20,6 +20,7 @@ typedef struct {
     nh_ex *value;   /* the same in the currents */
 } monomials;
 
+/* The product of two names, and of two currents. */
 static void add(nh_dag *d, monomials *m, nh_ex pa, nh_ex pb, nh_ex va, nh_ex vb)
 {
     m->name_of[m->count] = nh_mul(d, pa, pb);

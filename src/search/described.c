@@ -151,6 +151,7 @@ static bool looks_proportional(size_t points, const double *phi, const double *e
     return high - low <= same * fmax(fabs(low), fabs(high));
 }
 
+/* Energy, or the momentum of a coordinate: where the current is proportional to E or to a p_s at the points. */
 static void find_meaning(nh_analysis *result, const nh_points *points, nh_current *f)
 {
     nh_model *model = result->question->model;

@@ -1,3 +1,11 @@
+/* equation_symmetries: an ansatz for the fields, and its exact solution. [docs/method.md, sec. 5]
+ *
+ *     list_words, list_columns    monomials of the letters times the component d/dt or d/dq^s (times 1 or w^i)
+ *     prolonged                   rates r^s = Gamma(S^s) - rho^s Gamma(S^0) - S(rho^s), W from r = R W;
+ *                                 rows: phi^a_s r^s (k) and Gamma(W^i) - a^i Gamma(S^0) - S(a^i) (n)
+ *     solve                       the combinations of the columns whose rows vanish (exact/relation_space.h)
+ *     keep_new                    dynamical ones that are no point symmetries times currents
+ *     act                         S(Phi) of every current: zero, a combination, a function of them, or a new current */
 #include "search/equation_symmetries.h"
 
 #include <string.h>
@@ -69,6 +77,7 @@ static void list_words(search *x, size_t degree)
                 x->word[x->words++] = nh_mul(x->d, out->letter[i], out->letter[j]);
 }
 
+/* The field e d/dx of one component x: t, or a coordinate. */
 static void add_column(search *x, size_t component, nh_ex e)
 {
     nh_ex *field = x->space + x->columns++ * (1 + x->o->m);
@@ -160,6 +169,7 @@ static nh_equation_symmetry field_of(const search *x, const nh_ex *c, bool dynam
 
 /* ---- point symmetries ---- */
 
+/* Point symmetries, with words of the highest degree that leaves few enough columns. */
 static bool find_points(search *x)
 {
     nh_equation_symmetries *out = x->out;
@@ -182,6 +192,7 @@ static bool find_points(search *x)
 
 /* ---- dynamical symmetries ---- */
 
+/* factor (S^r - rho^r S^0), m components: what of a field is no multiple of Gamma. */
 static void put_evolutionary(const search *x, nh_ex **at, const nh_equation_symmetry *s, nh_ex factor)
 {
     for (size_t r = 0; r < x->o->m; r++)

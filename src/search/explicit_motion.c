@@ -1,3 +1,16 @@
+/* explicit_motion: the order of the steps along one curve, again and again until none can be taken.
+ *
+ *     first     a current that is linear in its only unsolved state
+ *     second    quadratic, whose root is a constant
+ *     rate      du/ds = A u + B, integrated in closed form
+ *     second    quadratic, with a root R(s) as a symbol of its own
+ *     first, second    with two unsolved states
+ *     rate      with names J for integrals without closed form
+ *
+ *     values    value[i] of a solved state:  s, C1, C2, ..  R1, ..  J1, ..  and states that are not solved
+ *                  |  settle: a state that is solved is put into all others
+ *                  v
+ *               conclude: constants are certified, formulas compared with the states and differentiated */
 #include "search/explicit_motion.h"
 
 #include <math.h>

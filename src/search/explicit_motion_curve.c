@@ -1,3 +1,11 @@
+/* explicit_motion_curve: the values along one curve, and states from currents.
+ *
+ *     in terms of     s, C, R, J and unsolved states     nh_explicit_along
+ *                     the states (t, q, w)               nh_explicit_at_points: C, R by their values, J = 0
+ *
+ * A quadratic current a u^2 + b u + e = C gives u = (-b + r)/(2 a), r^2 = b^2 - 4 a (e - C).  Where r^2 = (known)^2
+ * times something free of s, r is a constant in place of C; else r = factor times R, with R^2 given and dR/ds =
+ * (R^2)'/(2 R). */
 #include "search/explicit_motion_internal.h"
 
 #include <math.h>

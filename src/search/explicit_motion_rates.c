@@ -1,3 +1,8 @@
+/* explicit_motion_rates: du/ds = Gamma(u)/Gamma(s) = A u + B, integrated. [docs/method.md, (13a)]
+ *
+ *     read_equation    r = own/speed with the solved states put in; A and B where it is linear in u
+ *     integrate        int f ds: squares out of roots, |u| = side u, antiderivative, signs put back
+ *     solve_linear     u = (C + int mu B ds)/mu, mu = exp(-int A ds) */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -48,6 +48,7 @@ typedef nh_linear_motion_block linear;
 
 /* ---- the matrix ---- */
 
+/* The first variable of the block of variable i. */
 static size_t root(linear *l, size_t i)
 {
     while (l->block[i] != i) i = l->block[i];
@@ -60,6 +61,7 @@ static void join(linear *l, size_t i, size_t j)
     l->block[a > b ? a : b] = a > b ? b : a;
 }
 
+/* Variables i and j are in one block where A_ij is not 0. */
 static void find_blocks(linear *l)
 {
     for (size_t i = 0; i < l->size; i++) l->block[i] = i;
@@ -85,6 +87,7 @@ static bool row(linear *l, size_t i, nh_ex rate)
     return true;
 }
 
+/* z = (q, w): A and b from rho and a; false where some row is not linear. */
 static bool read_matrix(linear *l)
 {
     const nh_model *model = l->x->r->question->model;

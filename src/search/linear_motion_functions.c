@@ -56,6 +56,7 @@ typedef struct {
 
 /* ---- words ---- */
 
+/* Adds e, once, while there is room. */
 static void put(size_t *n, nh_ex *list, size_t most, nh_ex e)
 {
     for (size_t i = 0; i < *n; i++)
@@ -274,6 +275,7 @@ static void null_space(problem *p, size_t rows, nh_residue *value)
     nh_free(pivot);
 }
 
+/* Rows of values at enough random points, and their null space. */
 static bool find_relations(problem *p)
 {
     nh_jet_equations *x = p->equations;
@@ -424,6 +426,7 @@ static void set_equations(const problem *p, const nh_ex *c, linear *l)
     }
 }
 
+/* The relations for all parameters, and the search of linear_motion.c for z = (u, u'). */
 static void solve(const problem *p, nh_stage_solver *solver)
 {
     size_t D = p->relations;

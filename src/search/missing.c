@@ -1,3 +1,9 @@
+/* missing: integrals that the count misses, until it misses none. [docs/method.md, sec. 10, "Construction"]
+ *
+ *     count        bound and known integrals, degree by degree, up to the first that misses functions
+ *     attempts     coefficients of the coordinates: missing ones, then further ones; then the same with time
+ *                     |  one was found: count again, from the first attempt on
+ *     take_back    currents that were only certified return, where they are still new */
 #include "search/missing.h"
 
 #include <math.h>

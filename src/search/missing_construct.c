@@ -1,4 +1,12 @@
-/* Closed forms of the integrals that the count misses: proposed by series, then found and proved. */
+/* missing_construct: closed forms of the integrals that the count misses: proposed by series, then found and proved.
+ *
+ *     nh_construct          series of the missing integrals, compared with words up to a price      (count/construct.h)
+ *        |  terms, without coefficients
+ *     lift                  coefficients modulo primes, for all parameters (count/lift.h); else as a small stage
+ *        |  a current
+ *     price rises: 2, 3, 4, 6, 8, ..    shapes: closed shape, without cyclic coordinates, every coordinate
+ *
+ * What gave nothing is remembered (barren, refused): the same question is not asked again. */
 #include <math.h>
 #include <string.h>
 
@@ -175,6 +183,7 @@ static const barren *asked_before(const search *s, const barren *now)
     return NULL;
 }
 
+/* What the construction before has found out, without its work being done again. */
 static void take(search *s, const barren *b, bool *more)
 {
     s->work -= b->work;

@@ -1,3 +1,11 @@
+/* motion_series: a chain of intervals along the motion, each with a series about its centre. [docs/method.md, sec. 4]
+ *
+ *               side -1                first                 side +1
+ *         ]---x---[]-----x-----[]--------0--------[]-----x-----[]--x--[        0: start, x: centres
+ *
+ *     next_link    the half width is shortened until the bound is below a part of the series
+ *     chain        further intervals, the length by the bound before, to the end of the motion or of the tries
+ *     move         from centre to centre as balls: their radii enter the next bounds (exact/ball_series.h) */
 #include "search/motion_series.h"
 
 #include <math.h>
@@ -23,6 +31,7 @@ static nh_ball *at_start(const nh_model *model, const nh_explicit_motion *m, con
     return ball;
 }
 
+/* Roots and integrals by their defining equations. */
 static size_t list(const nh_explicit_motion *m, nh_ball_defined *out)
 {
     size_t n = 0;

@@ -1,3 +1,9 @@
+/* quadratures: motions along every state as parameter, and their constants as currents.
+ *
+ *     nh_quadratures_complete    before the large stages: without roots, where one current or a linear one is missing
+ *     nh_quadratures_search      1. parameters as symbols   2. some with their values   3. combined coordinates
+ *
+ * The best motion is reported: most states known, then fewest integrals J, then fewest roots. */
 #include "search/quadratures_internal.h"
 
 #include <stdlib.h>
@@ -88,6 +94,7 @@ static int by_generality(const void *left, const void *right)
     return a->e < b->e ? -1 : a->e > b->e;
 }
 
+/* Constants of integration of all motions that were tried, general and short ones first. */
 static void harvest(nh_stage_solver *solver, size_t count, const nh_explicit_motion *const *tried)
 {
     const nh_model *model = solver->r->question->model;

@@ -1,4 +1,13 @@
-/* quadratures_form: constants of integration in the forms in which they are shown. */
+/* quadratures_form: constants of integration in the forms in which they are shown. [docs/method.md, sec. 4,
+ * "Quadratures"]
+ *
+ *     shorter_roots, shorter_logarithms    sqrt(m^2 u) = m sqrt(u);  log(c u) = log u + constant
+ *     better_area_functions                atanh(a/sqrt(a^2 + b^2)) = asinh(a/b)
+ *     areas_of_logarithms                  log(a + b sqrt(R)), a^2 - b^2 R = +-N^2, without log N
+ *     in_other_roots                       signs into roots, roots joined, roots of the equations of motion
+ *     without_a_divisor                    times currents that divide it; without currents that are its factors
+ *
+ * Every step proposes; what is not proved again is not taken. */
 #include "search/quadratures_internal.h"
 
 #include "exact/normal.h"
@@ -45,6 +54,7 @@ static nh_ex joined_roots(nh_dag *d, nh_ex e)
     return e;
 }
 
+/* e = outside^2 inside, from the common factor of a sum, or from numerator and denominator. */
 static bool split(nh_dag *d, nh_ex e, nh_ex *outside, nh_ex *inside)
 {
     NH_LIST(root);

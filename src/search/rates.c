@@ -1,4 +1,17 @@
-/* A stage of the search: unknown rates. */
+/* rates: the stages with exponentials and waves, exp(-lambda q) f, whose rates lambda are found by pencils.
+ * [docs/method.md, (14)]
+ *
+ *     rates          eigenvalues of the pencil of one base and one variable q, each once
+ *     without_driven those that are waves of the driving force are left out
+ *     choose_forms   for each rate: as a simple number, as its digits, or with a name in the parameters?
+ *     wave_families  base times exp(-re q) {cos(im q), sin(im q)}: a stage like others
+ *
+ *     variable q                      bases
+ *     t                               velocities, harmonics, linear; energy and growing ones where L changes; squares
+ *                                     with forces; quadratic, cubic, frame, products, rational
+ *     a coordinate                    velocities, harmonics, linear; squares, around one angle, frame, products
+ *     log of the invariant density    velocities, harmonics, linear
+ *     the potential                   products, linear */
 #include <math.h>
 #include <stdio.h>
 

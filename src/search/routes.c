@@ -21,6 +21,8 @@ static nh_nullspace *solve(nh_analysis *result, size_t n, const nh_field_column 
     return s;
 }
 
+/* The distance of the currents found directly from those of the symmetries found, as spaces of values at the points,
+ * both ways. */
 static void compare(nh_analysis *result, const nh_ansatz *a, const nh_points *points, const nh_nullspace *current,
                     const nh_nullspace *symmetry, const nh_field_column *column)
 {

@@ -94,6 +94,7 @@ static const char *meaning_of(const problem *p, const nh_series_space *space, si
     return text;
 }
 
+/* Adds the solutions as currents, and returns how many were new. */
 static size_t keep(problem *p, const nh_series_space *space)
 {
     nh_analysis *result = p->x->r;

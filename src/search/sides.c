@@ -1,3 +1,8 @@
+/* sides: the search once more for the equations without kinks. [docs/method.md, sec. 4, "The sides of a kink"]
+ *
+ *     |u| -> s u,  sign(u) -> s      s a new parameter of a copy of the system
+ *     search, count                  of the copy: what is constant for all s
+ *     s -> sign(u)                   where a root has s: the sign at the sampling box */
 #include "search/searches.h"
 
 #include <math.h>

@@ -1,3 +1,9 @@
+/* slopes: for each pair of velocities whose accelerations contain no other state.
+ *
+ *     with_slope    v = p u in F and G; roots of squares of u become side u times a root of p
+ *     bernoulli     Q = R/u = F/(G - p F) = A + B u^m: m = 1 + u Q''/Q' by u, then B and A
+ *     current_of    mu u^(-m) + m int mu B dp, mu = exp(m int A dp); with B = 0, u exp(-int A dp)
+ *     in_states     p = v/u and the roots as they stand in the accelerations */
 #include "search/searches.h"
 
 #include <string.h>
@@ -65,6 +71,7 @@ static nh_ex with_slope(plane *y, nh_ex e)
     return nh_simplify_short(d, nh_walls_piece(d, e, side_of_u, y), 0);
 }
 
+/* int f dp, with the parameters and the side as constants. */
 static bool integral(const plane *y, nh_ex f, nh_ex *F)
 {
     const nh_system *system = y->o->system;

@@ -1,3 +1,17 @@
+/* stage_solver: one stage from its families to new currents.
+ *
+ *     families
+ *        |  nh_ansatz_create, nh_sectors_split       columns; too many: the stage is left out, and the note says why
+ *        |  nh_points_cover, nh_sectors_solve        2.5 points per column of the largest part; null space
+ *        v
+ *     null vectors: certain ones, then likely ones
+ *        |  nh_echelon                               readable candidates, simplest first
+ *        |  compare                                  which are independent of the currents known?
+ *        |  nh_currents_add                          exact coefficients, proof, region (currents.c)
+ *        v
+ *     new currents, and one nh_stage_record for the list of stages
+ *
+ * Work is counted before it is begun: a stage is solved completely or not at all. */
 #include "search/stage_solver.h"
 
 #include <math.h>
@@ -41,6 +55,7 @@ void nh_stage_solver_end(nh_stage_solver *solver)
 
 /* ---- which candidates are new ---- */
 
+/* The candidate with its fitted numbers. */
 static nh_ex rough(const nh_model *model, const nh_candidate *c)
 {
     nh_ex e = nh_int(model->dag, 0);
@@ -49,6 +64,7 @@ static nh_ex rough(const nh_model *model, const nh_candidate *c)
     return e;
 }
 
+/* So many candidates are compared at most: no more can be independent. */
 static size_t most_tested(const nh_analysis *result)
 {
     return least_tested > result->question->local_maximum ? least_tested : result->question->local_maximum;
@@ -111,6 +127,7 @@ static void keep_spectrum(nh_stage_solver *solver, const nh_nullspace *s, bool f
     if (better) r->current = nh_spectrum_of(r->arena, s);
 }
 
+/* Parts by reflections where there are many columns; else one part. */
 static nh_sectors split(nh_stage_solver *solver, nh_ansatz *a)
 {
     nh_analysis *result = solver->r;
@@ -146,6 +163,7 @@ static nh_limit limit_of(const nh_stage_solver *solver, const nh_sectors *sector
     return (nh_limit){0};
 }
 
+/* The number of sample points of a stage. */
 static size_t points_for(const nh_sectors *sectors)
 {
     return (size_t)fmax(least_points, points_per_column * (double)sectors->largest);

@@ -1,3 +1,12 @@
+/* staged_search: the rows of the search, in their order. [docs/stages.md]
+ *
+ *     part           budget `work`    what it does
+ *     KNOWN          whole            energy, momenta, linear fields, words: also where the count misses nothing
+ *     FITTED         what is left     linear problems, small ones first
+ *     INTEGRATED     what is left     one equation of motion after another
+ *     CONSTRUCTED    whole            what the count says is missing
+ *     REST           whole            primitives, series
+ *     ELSEWHERE      no limit         other velocities, levels of integrals, sides of kinks */
 #include "search/search.h"
 
 #include <math.h>
@@ -148,6 +157,7 @@ static outcome outcome_of(const nh_analysis *result)
     return (outcome){list->count, list->pieces, list->independent, list->furthers};
 }
 
+/* One row, unless its part is done or the row is left out; `used` marks rows that changed something. */
 static void run_row(nh_stage_solver *solver, size_t i)
 {
     nh_stage stage;

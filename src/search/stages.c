@@ -1,3 +1,14 @@
+/* stages: which functions each stage of the search is made of. [docs/method.md, sec. 4, "Ansatz"; docs/stages.md]
+ *
+ *     dictionary (integrals/dictionary.h)     velocities, forms, momenta, frame, atoms, potentials, waves, lengths, ..
+ *           |
+ *           v  sets of expressions (nh_expr_set), their sums, squares and products
+ *     families (nh_family)                    terms, products of terms, polynomials
+ *           |
+ *           v  one row of the table `stages`
+ *     nh_stage                                an ansatz, solved by stage_solver.c
+ *
+ * Bases of pencils are built the same way; there one set of terms is the whole family. */
 #include <math.h>
 #include <string.h>
 
@@ -67,6 +78,7 @@ static nh_expr_set words(const nh_family_list *s)
     return l;
 }
 
+/* Those of degree one, without energy and momenta. */
 static nh_expr_set linear_words(const nh_family_list *s)
 {
     nh_expr_set l = {0};
@@ -122,8 +134,7 @@ nh_expr_set nh_expr_set_squares(const nh_family_list *s, const nh_expr_set *a)
 
 /* ---- the stages ---- */
 
-/* Products of components in the frame of the kinetic energy with lengths and harmonics: the components of vectors in
- * polar coordinates. */
+/* Lengths, with `squares_too` their products of two, and t. */
 nh_expr_set nh_expr_set_lengths(const nh_family_list *s, bool squares_too, bool time)
 {
     nh_dag *d = s->o->dag;
@@ -136,6 +147,7 @@ nh_expr_set nh_expr_set_lengths(const nh_family_list *s, bool squares_too, bool 
     return l;
 }
 
+/* All products of one function of each set. */
 static nh_expr_set times(const nh_family_list *s, const nh_expr_set *a, const nh_expr_set *b)
 {
     nh_expr_set l = {0};
@@ -144,6 +156,8 @@ static nh_expr_set times(const nh_family_list *s, const nh_expr_set *a, const nh
     return l;
 }
 
+/* Products of components in the frame of the kinetic energy with lengths and harmonics: the components of vectors,
+ * and with squares of the frame those of tensors, in polar coordinates. */
 static nh_expr_set frame_products(const nh_family_list *s)
 {
     nh_expr_set f = {0}, w = waves(s), some = nh_expr_set_lengths(s, false, false),
@@ -338,8 +352,8 @@ static nh_expr_set pencil_products(const nh_family_list *s)
     return times(s, &u, &x);
 }
 
-/* Integrals of the potentials, repeatedly: with friction c x'^2 exp(2 c x) (x'^2/2 + f(x)) is conserved where f' + 2 c
- * f = V'. */
+/* Derivatives of the potentials, repeatedly: with friction c x'^2, exp(2 c x) (x'^2/2 + f(x)) is conserved where f' +
+ * 2 c f = V', so that f is a sum of derivatives of V where these end. */
 static void put_derivatives(const nh_family_list *s, nh_expr_set *l)
 {
     enum { highest = 6 };

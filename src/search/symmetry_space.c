@@ -1,3 +1,11 @@
+/* symmetry_space: linear conditions on sums of products of currents. [docs/method.md, sec. 5, (18a)]
+ *
+ *     list_products       1, Phi_i, Phi_i Phi_j up to degree 2 in the velocities; independent ones: columns
+ *     conditions          rows that vanish: U_a(Phi) (inside), V(Phi) (case 1), Y_i(Z^s) (projectable), or both (best)
+ *     subspace            all combinations of the columns whose rows vanish: exact (exact/relation_space.h)
+ *     make_basis          nested spaces in echelon form:   best  <  case 1  <  inside  <  all
+ *                                                          best  <  projectable     <  all
+ *     bound               rank of the closure of Gamma and U (or V): how many such currents can exist at all */
 #include "search/symmetry_space.h"
 
 #include <string.h>
@@ -45,6 +53,7 @@ static size_t degree_of(const space *x, nh_ex phi)
     return degree;
 }
 
+/* A further product, with its name in the currents' names. */
 static void put(space *x, nh_ex value, nh_ex name)
 {
     x->out->left_out += x->columns == most_products;
@@ -207,6 +216,7 @@ static nh_relation_space *subspace(const space *x, nh_space_kind kind)
 
 /* ---- a basis ---- */
 
+/* sum_j c_j of_j over the columns. */
 static nh_ex combined(const space *x, const nh_ex *c, const nh_ex *of)
 {
     nh_ex sum = nh_int(x->d, 0);
@@ -215,6 +225,7 @@ static nh_ex combined(const space *x, const nh_ex *c, const nh_ex *of)
     return sum;
 }
 
+/* Z^0 and Z^s of a current, simplified. */
 static const nh_field *projected(const space *x, nh_ex phi)
 {
     const nh_model *o = x->o;
@@ -246,6 +257,7 @@ static void add_members(const space *x, nh_symmetry_space *out, size_t n, const 
     }
 }
 
+/* The subspaces from the smallest on, then all products: each adds to the basis what it has beyond those before it. */
 static void make_basis(const space *x, nh_symmetry_space *out)
 {
     static const bool kinds[NH_SPACES][NH_SPACES] = {[NH_SPACE_BEST] = {true, true, true, true},

@@ -40,6 +40,7 @@ typedef struct {
     const char *obstacle; /* the reason why the space was not found, or NULL */
     /* largest degree of a current in the velocities; currents of higher degree have no products */
     size_t degree;
+    /* currents that have no products: of higher degree, or not polynomial in the velocities */
     size_t others;
     size_t left_out; /* products beyond the largest number */
     size_t dimension, of[NH_SPACES];
