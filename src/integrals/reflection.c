@@ -118,7 +118,7 @@ static bool holds_at(trial *t, const nh_reflection *r, size_t p)
     for (size_t i = 0; i < o->n; i++) strength = fmax(strength, fabs(here[o->m + i]));
     for (size_t k = 0; k < t->outputs; k++) {
         bool velocity = k < o->m, residual = k >= o->m + o->n;
-        int sign = residual ? 0 : velocity ? r->sign[0] * r->sign[1 + k] : r->sign[0] * r->sign[1 + k];
+        int sign = residual ? 0 : r->sign[0] * r->sign[1 + k];
         if (!isfinite(t->there[k]) || !close_to(t->there[k], sign * here[k], velocity || residual ? speed : strength))
             return false;
     }
