@@ -29,8 +29,8 @@ typedef struct {
     nh_output_folder folder[NH_OUTPUT_FOLDERS]; /* locked ones */
     size_t folders;
 } nh_output_set;
-/* Writes the text beside `path` and adds it to the set, which begins as {0}.  False when it could not be written; the
- * set stays valid, and nh_output_end is called in any case. */
+/* Writes the text to a temporary file in the folder of `path`, and adds that to the set, which begins as {0}.  False
+ * when it could not be written; the set stays valid, and nh_output_end is called in any case. */
 bool nh_output_add(nh_output_set *set, const char *path, const char *text, size_t length, nh_error *error);
 /* Waits until no other process puts files into the same folders; nh_output_end does this, too.  False: for too long. */
 bool nh_output_lock(nh_output_set *set, nh_error *error);

@@ -219,7 +219,7 @@ static bool place(const scope *s, const nh_ex *t)
     for (size_t a = 0; a < s->g; a++) q[slice->along[a]] = slice->y[a];
     for (size_t a = s->g; a-- > 0;)
         if (!flow(s, &s->slice->action->generator[a], t[a], q)) return false;
-    nh_export_function *f = add(s, "_place", "The place that a state and the group's coordinates stand for.");
+    nh_export_function *f = add(s, "_place", "All coordinates, from a reduced state and the coordinates of the group.");
     nh_export_argument(s->x, f, "group", "coordinates of the group", s->g, t);
     nh_export_result(s->x, f, "q", "coordinates", m, 1, q, coordinate_names(s, ""));
     return true;
@@ -248,8 +248,8 @@ static bool place_rate(const scope *s, const nh_ex *t, const nh_ex *spatial)
         for (size_t a = 0; a < s->g; a++) from[a] = k->q[s->slice->along[a]], to[a] = q[s->slice->along[a]];
         rate[r] = nh_substitute(s->d, rate[r], s->g, from, to);
     }
-    nh_export_function *f =
-        add(s, "_place_rate", "The velocity of the place that a state and the group's coordinates stand for.");
+    nh_export_function *f = add(
+        s, "_place_rate", "The velocities of all coordinates, from a reduced state and the coordinates of the group.");
     nh_export_argument(s->x, f, "group", "coordinates of the group", s->g, t);
     nh_export_argument(s->x, f, "q", "coordinates", k->m, q);
     solve_mass(s, f);

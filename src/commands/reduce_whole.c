@@ -41,7 +41,7 @@ static bool bad_inner(size_t d, const char *typed, size_t at, nh_error *error)
                        "this is not an entry of an inner product on the %zu generators of the group", d);
     return nh_error_hint(error,
                          "--inner \"1,%zu=1/2; %zu,%zu=3\": numbers of two generators, and the value; what is not "
-                         "given is 1 on the diagonal and 0 beside it",
+                         "given is 1 on the diagonal and 0 elsewhere",
                          d, d, d);
 }
 

@@ -147,7 +147,8 @@ void nh_graded_component_init(nh_graded_component *component, size_t rows, size_
 void nh_graded_component_clear(nh_graded_component *component, size_t rows, size_t columns);
 
 /* Eliminates: afterwards row pivot_row[t] has the entry 1 at column pivot_column[t], t < rank, and its other entries
- * are at columns with a later pivot or without one.  The other rows have no entries, and their known parts are conditions.
+ * are at columns with a later pivot or without one.  The other rows have no entries, and their known parts are
+ * conditions.
  * The caller has set rows, columns, equation and unknown; `place`: the column of each unknown. */
 void nh_graded_component_solve(const nh_graded_system *system, nh_graded_component *component, const size_t *place);
 

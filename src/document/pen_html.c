@@ -147,14 +147,15 @@ static void put_too_long(nh_html_writer *w, const char *label, nh_ex e, double w
     nh_text_clear(&words);
 }
 
-/* The formulas that are short enough, or the others, with the names that only they need. */
-static void put_list(nh_html_writer *w, const nh_formula_list *l, size_t n, const char *const *label, bool beside)
+/* in_the_open: the short formulas, with the names that these need; else the long ones, with the names that only these
+ * need, which are folded. */
+static void put_list(nh_html_writer *w, const nh_formula_list *l, size_t n, const char *const *label, bool in_the_open)
 {
     bool any = false;
     for (size_t i = 0; i < n; i++)
-        if (l->stands[i] && l->short_enough[i] == beside) put_formula(w, label[i], l->formula[i]);
+        if (l->stands[i] && l->short_enough[i] == in_the_open) put_formula(w, label[i], l->formula[i]);
     for (size_t k = 0; k < l->parts; k++) {
-        if (!l->needed[k] || l->beside[k] != beside) continue;
+        if (!l->needed[k] || l->beside[k] != in_the_open) continue;
         if (!any) open(w, NH_PEN_WHERE, NULL, NULL);
         any = true;
         put_formula(w, l->part[k].name, l->part[k].value);

@@ -166,7 +166,7 @@ static size_t null_space(work *w, size_t rows, size_t n, const nh_ex *e, double 
     return dimension;
 }
 
-/* Brings rows to reduced echelon form, and rounds entries that are whole numbers up to rounding. */
+/* Brings rows to reduced echelon form.  An entry within rounding of a whole number becomes that number. */
 static void reduce(size_t rows, size_t n, double *a)
 {
     for (size_t r = 0, c = 0; r < rows && c < n; c++) {

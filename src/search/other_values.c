@@ -19,7 +19,7 @@ static double *values_nearby(const nh_model *model)
         int place = (int)floor(log10(fabs(x))) - 2;
         double unit = pow(10, abs(place)), digits = round(x * percent[i % factors] / 100 * pow(10, -place));
         digits += (double)(i / factors);
-        /* a quotient of whole numbers is the double nearest to the decimal */
+        /* the quotient of two whole numbers rounds to the same double as the decimal */
         value[i] = place < 0 ? digits / unit : digits * unit;
     }
     return value;
