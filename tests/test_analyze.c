@@ -608,7 +608,7 @@ Test(analyze, almost_conserved_is_told_apart)
 }
 
 /* Definitions that use each other many times over: the potential would be longer than any memory when written out, and is a small graph. */
-Test(analyze, definitions_upon_definitions, .timeout = 120, PLAIN_ONLY)
+Test(analyze, definitions_upon_definitions, PLAIN_ONLY)
 {
     enum { levels = 45 };
     char text[levels * 60 + 300];
@@ -622,7 +622,7 @@ Test(analyze, definitions_upon_definitions, .timeout = 120, PLAIN_ONLY)
 }
 
 /* What a current is called, it is: sign, factor and all. */
-Test(analyze, meanings_are_true, .timeout = 120)
+Test(analyze, meanings_are_true)
 {
     static const char *const systems[] = {"sleigh", "vertical_disk", "heisenberg_particle", "rolling_ball", "charged_particle", "euler_top"};
     size_t tried = 0, energies = 0, momenta = 0;
@@ -653,7 +653,7 @@ Test(analyze, meanings_are_true, .timeout = 120)
 
 /* Coefficients that solve a linear equation without elementary solutions (the disk's are of Legendre type): a series each, certified by its
  * refinement; with the energy they are three of the disk's currents.  They must be new, linear and constant to rounding inside the interval. */
-Test(analyze, series_of_the_rolling_disk, .timeout = 120, PLAIN_ONLY)
+Test(analyze, series_of_the_rolling_disk, PLAIN_ONLY)
 {
     nh_error error = {0};
     nh_request request = {.system_path = "systems/rolling_disk.yaml"};
@@ -681,7 +681,7 @@ Test(analyze, series_of_the_rolling_disk, .timeout = 120, PLAIN_ONLY)
 }
 
 /* Kovalevskaya's top in Euler angles: energy, momentum, and an integral of the fourth degree; with other moments of inertia it is not there. */
-Test(analyze, kovalevskaya, .timeout = 120, PLAIN_ONLY)
+Test(analyze, kovalevskaya, PLAIN_ONLY)
 {
     static const char *const form =
         "name: top\nparameters: [{name: A, value: %s}, {name: C, value: 0.9}, {name: g, value: 1.3}]\n"
@@ -698,7 +698,7 @@ Test(analyze, kovalevskaya, .timeout = 120, PLAIN_ONLY)
 }
 
 /* What is found in Cartesian coordinates must be found in polar ones: vectors have the harmonics of a cyclic angle there. */
-Test(analyze, polar_coordinates, .timeout = 120, WHOLE_ONLY)
+Test(analyze, polar_coordinates, WHOLE_ONLY)
 {
 #define SPHERICAL "coordinates: [{name: r, type: length}, {name: th, type: angle}, {name: ph, type: angle}]\ndomain: {r: [0.5, 2], th: [0.4, 2.6]}\n"
 #define POLAR "coordinates: [{name: r, type: length}, {name: ph, type: angle}]\ndomain: {r: [0.5, 2]}\n"
@@ -736,7 +736,7 @@ Test(analyze, unknown_exponents)
 }
 
 /* A free top whose angle of precession is given as a length, in thousandths: the pencil has seven digits of the rate 1/1000. */
-Test(analyze, a_rate_with_few_digits, .timeout = 120, PLAIN_ONLY)
+Test(analyze, a_rate_with_few_digits, PLAIN_ONLY)
 {
     const char *text = "name: top\nparameters: [{name: A, value: 1.1}, {name: B, value: 1.7}, {name: C, value: 2.3}]\n"
                        "coordinates: [{name: p, type: length}, {name: h, type: angle}, {name: s, type: angle}]\n"

@@ -450,7 +450,7 @@ static void write_every_page(const place *p)
 }
 
 /* Of every shipped system, as wide as a phone: small, soon there, without a formula that has no box, and no wider than the window. */
-Test(browser, the_page_of_every_system, .timeout = 300)
+Test(browser, the_page_of_every_system)
 {
     if (sweep_sanitized()) cr_skip_test("the pages are the same, and take very much longer");
     place p = place_with_systems();

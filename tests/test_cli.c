@@ -417,7 +417,7 @@ Test(cli, a_folder_may_hold_systems_and_analyses, PLAIN_ONLY)
 }
 
 /* `make install` into a folder; the program is then run there from elsewhere, without any setting. */
-Test(cli, the_installed_program_works_from_anywhere, .timeout = 300, PLAIN_ONLY)
+Test(cli, the_installed_program_works_from_anywhere, PLAIN_ONLY)
 {
     place p = place_make();
     char build[PATH_MAX + 8], destination[2 * PATH_MAX], *slash;

@@ -176,7 +176,7 @@ Test(cli_json, the_sleigh_has_every_key)
 }
 
 /* Systems that stress the numbers: everything conserved, nothing conserved, no constraint, roots, implicit velocities, no inertia to drift. */
-Test(cli_json, other_systems_have_every_key, .timeout = 300, PLAIN_ONLY)
+Test(cli_json, other_systems_have_every_key, PLAIN_ONLY)
 {
     static const char *const texts[] = {FREE, DAMPED, CONE, IMPLICIT};
     place p = place_make();
@@ -237,7 +237,7 @@ static char *without_timing(cJSON *root)
     return text;
 }
 
-Test(cli_json, the_same_inputs_give_the_same_output, .timeout = 300)
+Test(cli_json, the_same_inputs_give_the_same_output)
 {
     static const char *const lines[] = {"analyze sleigh --json -", "analyze sleigh --json - --seed 77 --samples 300", "analyze mine.yaml --json -",
                                         "analyze sleigh --velocities coordinates --json -"};
@@ -253,7 +253,7 @@ Test(cli_json, the_same_inputs_give_the_same_output, .timeout = 300)
     place_clear(&p);
 }
 
-Test(cli_json, threads_do_not_change_the_output, .timeout = 300, PLAIN_ONLY)
+Test(cli_json, threads_do_not_change_the_output, PLAIN_ONLY)
 {
     place p = place_with_project();
     char *a = without_timing(json_of(&p, "analyze vertical_disk --threads 1 --max-seconds 1000 --json -", 0)), *b = without_timing(json_of(&p, "analyze vertical_disk --threads 3 --max-seconds 1000 --json -", 0));

@@ -260,7 +260,7 @@ Test(diff, implicit_symbols_follow_their_rules)
 
 /* ---- size ---- */
 
-Test(diff, deep_expressions_need_no_deep_stack, .timeout = 20, PLAIN_ONLY)
+Test(diff, deep_expressions_need_no_deep_stack, PLAIN_ONLY)
 {
     nh_dag *d = nh_dag_create();
     nh_ex x = nh_symbol(d, "x"), e = x;
@@ -270,7 +270,7 @@ Test(diff, deep_expressions_need_no_deep_stack, .timeout = 20, PLAIN_ONLY)
     nh_dag_free(d);
 }
 
-Test(diff, wide_expressions, .timeout = 20, PLAIN_ONLY)
+Test(diff, wide_expressions, PLAIN_ONLY)
 {
     int sum_terms = sweep_whole() ? 100000 : 30000, factors = sweep_whole() ? 1000 : 400;
     nh_dag *d = nh_dag_create();

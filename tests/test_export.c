@@ -419,7 +419,7 @@ static void languages(size_t part)
     batch_clear(&b);
 }
 
-Test(export, languages_1, .timeout = 300, PLAIN_ONLY) { languages(0); }
-Test(export, languages_2, .timeout = 300, WHOLE_ONLY) { languages(1); }
-Test(export, languages_3, .timeout = 300, WHOLE_ONLY) { languages(2); }
-Test(export, languages_4, .timeout = 300) { languages(3); }
+Test(export, languages_1, PLAIN_ONLY) { languages(0); }
+Test(export, languages_2, WHOLE_ONLY) { languages(1); }
+Test(export, languages_3, WHOLE_ONLY) { languages(2); }
+Test(export, languages_4) { languages(3); }

@@ -123,7 +123,7 @@ static void check_momenta(const nh_export *x, size_t probe)
     exported_call_clear(&p);
 }
 
-Test(export_meaning, equations, .timeout = 300)
+Test(export_meaning, equations)
 {
     for (size_t i = 0; i < EXPORTED_SYSTEMS; i++) {
         if (!sweep_tries(i, 8, 16)) continue;
@@ -190,7 +190,7 @@ static void check_in_velocities(const nh_export *x, size_t probe)
     exported_call_clear(&b);
 }
 
-Test(export_meaning, currents, .timeout = 300, PLAIN_ONLY)
+Test(export_meaning, currents, PLAIN_ONLY)
 {
     size_t systems = 0;
     for (size_t i = 0; i < EXPORTED_SYSTEMS; i++) {
@@ -282,7 +282,7 @@ static void check_place(const nh_export *x, size_t i, size_t probe, size_t *chec
     exported_call_clear(&energy);
 }
 
-Test(export_meaning, reductions, .timeout = 300)
+Test(export_meaning, reductions)
 {
     size_t checked = 0;
     for (size_t i = 0; i < EXPORTED_SYSTEMS; i++) {

@@ -64,7 +64,7 @@ static void check_analysis(const place *p, const char *system)
     finished_clear(&f);
 }
 
-Test(first_screen, every_system_has_one, .timeout = 600)
+Test(first_screen, every_system_has_one)
 {
     place p = place_with_systems();
     char folder[600];

@@ -14,7 +14,7 @@ static bool node_exists(void) { return system("command -v node >/dev/null 2>&1")
 
 /* Of every shipped system that the sweep tries: the states of three motions, with other parameters and velocities, all velocities and the energy along them,
  * and the quantities that hold. */
-Test(live, node_computes_the_same_motion, .timeout = 600)
+Test(live, node_computes_the_same_motion)
 {
     static const double bound = 1e-11, sensitive = 1e-9;
     /* nearby motions part, or pass near a singularity: no two integrators in double precision agree better */

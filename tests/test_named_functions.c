@@ -467,13 +467,13 @@ static void expect_values(const char *needs, const char *command, const char *be
     nh_text_clear(&p.code);
 }
 
-Test(named_functions, sympy_computes_the_same, .timeout = 60, PLAIN_ONLY)
+Test(named_functions, sympy_computes_the_same, PLAIN_ONLY)
 {
     expect_values("/usr/bin/python3 -c 'import sympy' 2>/dev/null", "/usr/bin/python3", "import sympy as sp\n", &nh_source_sympy,
                   "print(complex(sp.N(%s)).real)\n", "", 22);
 }
 
-Test(named_functions, scipy_computes_the_same, .timeout = 60)
+Test(named_functions, scipy_computes_the_same)
 {
     nh_text head;
     nh_text_init(&head);
@@ -483,7 +483,7 @@ Test(named_functions, scipy_computes_the_same, .timeout = 60)
     nh_text_clear(&head);
 }
 
-Test(named_functions, octave_computes_the_same, .timeout = 60)
+Test(named_functions, octave_computes_the_same)
 {
     expect_values("octave-cli --version >/dev/null 2>&1", "octave-cli --norc", "", &nh_source_matlab, "printf('%%.17g\\n', %s);\n", "", 10);
 }

@@ -111,7 +111,7 @@ Test(named_search, gauss, PLAIN_ONLY)
 
 /* The rolling disk, whose parameters a and b are conjugate: k^2 = m C r^2/(A (C
  * + m r^2)) [Appell, Korteweg]. */
-Test(named_search, rolling_disk, .timeout = 120, PLAIN_ONLY)
+Test(named_search, rolling_disk, PLAIN_ONLY)
 {
     nh_analysis *r = ask("systems/rolling_disk.yaml");
     for (size_t k = 0; k < r->list->count; k++) {
@@ -125,7 +125,7 @@ Test(named_search, rolling_disk, .timeout = 120, PLAIN_ONLY)
 
 /* Euler's disk with thickness is "solved by using hypergeometric functions" [Cendra and Diaz 2007]: with singular points i, -i
  * and infinity of cot theta, for all parameters; there is no other integral of degree 2. */
-Test(named_search, euler_disk, .timeout = 300, PLAIN_ONLY)
+Test(named_search, euler_disk, PLAIN_ONLY)
 {
     nh_analysis *r = ask("systems/euler_disk.yaml");
     cr_assert(r->completeness[NH_COMPLETE_IN_COORDINATES].degree >= 2 && r->completeness[NH_COMPLETE_IN_COORDINATES].generic);
@@ -157,7 +157,7 @@ static void expect_equation(nh_analysis *r, size_t series, const char *equation)
 }
 
 /* Mathieu's equation has no solution with a name here. */
-Test(named_search, equations_without_names, .timeout = 120, PLAIN_ONLY)
+Test(named_search, equations_without_names, PLAIN_ONLY)
 {
     expect_equation(ask_text(HEAD("{name: a, value: 1.1}, {name: e, value: 0.4}") "lagrangian: "
                                                                                   "x'^2/2 - (a + "

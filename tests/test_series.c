@@ -108,39 +108,39 @@ static void two_on(const char *name, const char *const shape[3], double low, dou
     nh_analysis_free(r);
 }
 
-Test(series, disk_on_a_short_interval, .timeout = 120, WHOLE_ONLY)
+Test(series, disk_on_a_short_interval, WHOLE_ONLY)
 {
     two_on("disk", disk, 1.0, 2.1);
 }
 
-Test(series, disk_on_a_wide_interval, .timeout = 120, WHOLE_ONLY)
+Test(series, disk_on_a_wide_interval, WHOLE_ONLY)
 {
     two_on("disk", disk, 0.6, 2.5);
 }
 
-Test(series, disk_on_a_very_wide_interval, .timeout = 120, WHOLE_ONLY)
+Test(series, disk_on_a_very_wide_interval, WHOLE_ONLY)
 {
     two_on("disk", disk, 0.3, 2.8);
 }
 
-Test(series, disk_near_an_end, .timeout = 120, PLAIN_ONLY)
+Test(series, disk_near_an_end, PLAIN_ONLY)
 {
     two_on("disk", disk, 0.2, 1.2);
 }
 
-Test(series, tyre_on_a_wide_interval, .timeout = 120, WHOLE_ONLY)
+Test(series, tyre_on_a_wide_interval, WHOLE_ONLY)
 {
     two_on("tyre", tyre, 0.3, 2.7);
 }
 
-Test(series, ellipsoid_on_a_wide_interval, .timeout = 120, WHOLE_ONLY)
+Test(series, ellipsoid_on_a_wide_interval, WHOLE_ONLY)
 {
     two_on("ellipsoid", ellipsoid, 0.3, 2.7);
 }
 
 /* At h = 0 and pi the equations are singular: an interval with these ends is too wide for a series, and what is said
  * holds on a part of it. */
-Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120, WHOLE_ONLY)
+Test(series, an_interval_up_to_the_poles_is_cut, WHOLE_ONLY)
 {
     nh_analysis *r = roll(disk, 0.0005, 3.141);
     cr_expect(r->list->independent == 3 && check_series(r, "disk") == 2, "%zu independent", r->list->independent);
@@ -153,7 +153,7 @@ Test(series, an_interval_up_to_the_poles_is_cut, .timeout = 120, WHOLE_ONLY)
 
 /* The same functions whatever the interval: near the middle of one the other's currents are combinations of its own, so
  * that ratios of 2 x 2 determinants of (f1, f2) do not depend on it. */
-Test(series, the_interval_does_not_matter, .timeout = 120, WHOLE_ONLY)
+Test(series, the_interval_does_not_matter, WHOLE_ONLY)
 {
     static const double at[3] = {1.1, 1.5, 1.9}, ends[2][2] = {{1.0, 2.1}, {0.3, 2.8}};
     double determinant[2][3];
@@ -193,7 +193,7 @@ static void airy_functions(double t, double y[2], double slope[2])
 }
 
 /* The current that is x at t = 0 is x y2' - x' y2, the one that is x' at t = 0 is x' y1 - x y1'. */
-Test(series, airy_functions, .timeout = 120)
+Test(series, airy_functions)
 {
     static const char *const meaning[2] = {"x at t = 0", "x' at t = 0"};
     nh_analysis *r = ask(airy);
@@ -277,20 +277,20 @@ static void all_of(size_t i)
     nh_analysis_free(r);
 }
 
-Test(series, one_linear_equation, .timeout = 200, PLAIN_ONLY)
+Test(series, one_linear_equation, PLAIN_ONLY)
 {
     for (size_t i = 0; i < 5; i++)
         if (sweep_tries(i, 2, 6)) all_of(i);
 }
 
-Test(series, more_than_one, .timeout = 200, PLAIN_ONLY)
+Test(series, more_than_one, PLAIN_ONLY)
 {
     for (size_t i = 5; i < driven_count; i++)
         if (sweep_tries(i, 4, 5)) all_of(i);
 }
 
 /* What is nearly linear has no integral, although doubles cannot tell it from one that has. */
-Test(series, a_small_term_is_seen, .timeout = 120)
+Test(series, a_small_term_is_seen)
 {
     nh_analysis *r =
         ask("name: near\ncoordinates: [{name: x, type: length}]\nlagrangian: x'^2/2 - t*x^2/2 - 1e-12*x^4/4\n");
@@ -299,7 +299,7 @@ Test(series, a_small_term_is_seen, .timeout = 120)
 }
 
 /* Series of one coordinate each are left until no closed form of them was constructed: none is lost. */
-Test(series, of_one_coordinate_of_two, .timeout = 200, PLAIN_ONLY)
+Test(series, of_one_coordinate_of_two, PLAIN_ONLY)
 {
     nh_analysis *r = ask("name: turn\n"
                          "coordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}, "
@@ -318,7 +318,7 @@ Test(series, of_one_coordinate_of_two, .timeout = 200, PLAIN_ONLY)
 
 /* Functions of two coordinates without closed form are not sought: error functions of x + i y here.  What is proved stays
  * proved, and the count says that it may not be all. */
-Test(series, of_two_coordinates_together_none, .timeout = 60)
+Test(series, of_two_coordinates_together_none)
 {
     nh_analysis *r = ask("name: plane\ncoordinates: [x, y]\nlagrangian: exp(x^2 - y^2)*(x'^2 + y'^2)/2\n");
     const nh_completeness *c = &r->completeness[NH_COMPLETE_IN_COORDINATES];
@@ -328,7 +328,7 @@ Test(series, of_two_coordinates_together_none, .timeout = 60)
 }
 
 /* The energy of a mass that grows, times an exponential of t, has a closed form. */
-Test(series, none_where_there_is_a_closed_form, .timeout = 60)
+Test(series, none_where_there_is_a_closed_form)
 {
     nh_analysis *r =
         ask("name: growing\ncoordinates: [x, y]\nlagrangian: exp(t/5)*exp(x^2 - y^2)*(x'^2 + y'^2)/2\n");
@@ -338,7 +338,7 @@ Test(series, none_where_there_is_a_closed_form, .timeout = 60)
 }
 
 /* The variable and the interval stand in every output. */
-Test(series, the_interval_of_time_is_said_everywhere, .timeout = 120)
+Test(series, the_interval_of_time_is_said_everywhere)
 {
     place p = place_make();
     write_here(&p, "airy.yaml", airy);

@@ -47,7 +47,7 @@ static bool meant(const nh_analysis *r, const char *words)
 }
 
 /* Of different frequencies: the energy and the phase of each. */
-Test(sizes, oscillators, .timeout = 600, PLAIN_ONLY)
+Test(sizes, oscillators, PLAIN_ONLY)
 {
     static const size_t sizes[] = {4, 5, 6, 8, 12};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
@@ -68,7 +68,7 @@ Test(sizes, oscillators, .timeout = 600, PLAIN_ONLY)
 static size_t many(void) { return sweep_whole() ? 40 : sweep_sanitized() ? 6 : 10; }
 
 /* In blocks of two each, and what is said about each takes no more than it has to: half of what may be computed is enough for all. */
-Test(sizes, many_oscillators, .timeout = 600, PLAIN_ONLY)
+Test(sizes, many_oscillators, PLAIN_ONLY)
 {
     size_t n = many();
     nh_text text;
@@ -91,7 +91,7 @@ static void chain(nh_text *text, size_t n, bool closed)
     else nh_text_addf(text, " - k*x1^2/2 - k*x%zu^2/2\n", n);
 }
 
-Test(sizes, chains, .timeout = 600, WHOLE_ONLY)
+Test(sizes, chains, WHOLE_ONLY)
 {
     static const size_t sizes[] = {6, 8, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
@@ -105,7 +105,7 @@ Test(sizes, chains, .timeout = 600, WHOLE_ONLY)
 }
 
 /* The total momentum, the centre of mass, the energy. */
-Test(sizes, ring_of_many, .timeout = 600, WHOLE_ONLY)
+Test(sizes, ring_of_many, WHOLE_ONLY)
 {
     static const char *const wanted[] = {"m*(x1' + ", "m*(t*(x1' + "};
     nh_text text;
@@ -126,7 +126,7 @@ Test(sizes, ring_of_many, .timeout = 600, WHOLE_ONLY)
 
 /* Pendula that hold each other, with default options: nothing but the energy, everything is tried, and no part of the search takes what it cannot use: of 40
  * coordinates the series of a count would be gigabytes, products of all waves fill lists that no stage may have, and no state can be integrated alone. */
-Test(sizes, ring_of_pendula, .timeout = 600, PLAIN_ONLY)
+Test(sizes, ring_of_pendula, PLAIN_ONLY)
 {
     size_t n = sweep_whole() ? 40 : 24;
     nh_text text;
@@ -144,7 +144,7 @@ Test(sizes, ring_of_pendula, .timeout = 600, PLAIN_ONLY)
 }
 
 /* Energy, momentum, angular momentum and centre of mass. */
-Test(sizes, bodies_in_space, .timeout = 600, WHOLE_ONLY)
+Test(sizes, bodies_in_space, WHOLE_ONLY)
 {
     static const size_t sizes[] = {5, 6, 10};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {

@@ -50,7 +50,7 @@ static void expect_solution(source *s, const nh_lu *lu, size_t n, const nh_ex *a
     }
 }
 
-Test(solve, random_matrices, .timeout = 120, PLAIN_ONLY)
+Test(solve, random_matrices, PLAIN_ONLY)
 {
     size_t solved = 0;
     for (uint64_t seed = 1; seed <= 300; seed++) {

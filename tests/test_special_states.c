@@ -150,7 +150,7 @@ static void compare(const place *p, int n, const special *s, const char *method,
 }
 
 /* With the method that is chosen, at all tolerances. */
-Test(special_states, chains, .timeout = 600, PLAIN_ONLY)
+Test(special_states, chains, PLAIN_ONLY)
 {
     static const double tolerances[] = {1e-4, 1e-7, 1e-10, 1e-13};
     place p = place_make();
@@ -189,7 +189,7 @@ Test(special_states, implicit_steps_begin_from_rest)
 }
 
 /* Each method that controls its error. */
-Test(special_states, methods, .timeout = 600, PLAIN_ONLY)
+Test(special_states, methods, PLAIN_ONLY)
 {
     place p = place_make();
     for (int n = 2; n <= 3; n++) {

@@ -173,7 +173,7 @@ static void try(start *s, const char *known, size_t which)
     }
 }
 
-Test(special_sweep, shipped_systems, .timeout = 7200, PLAIN_ONLY)
+Test(special_sweep, shipped_systems, PLAIN_ONLY)
 {
     char *name[most_files], known[40000] = "";
     nh_error error = {0};

@@ -58,7 +58,7 @@ static const struct {
 };
 
 /* (A false claim, and a true one in another form, were passed over in silence.) */
-Test(truth, what_a_file_states_of_currents_is_judged, .timeout = 120)
+Test(truth, what_a_file_states_of_currents_is_judged)
 {
     place p = place_make();
     for (size_t i = 0; i < sizeof statement / sizeof *statement; i++) {
@@ -106,7 +106,7 @@ static const struct {
     {"coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y - 3*asin(sin(x))\ndomain: {x: [-0.2, 0.2]}\n", 3, "in some parts"},
 };
 
-Test(truth, a_current_holds_wherever_motions_go, .timeout = 120)
+Test(truth, a_current_holds_wherever_motions_go)
 {
     place p = place_make();
     for (size_t i = 0; i < sizeof wall / sizeof *wall; i++) {
@@ -125,7 +125,7 @@ Test(truth, a_current_holds_wherever_motions_go, .timeout = 120)
 }
 
 /* L with |x - 1/n| + ... + |x - 1|: more walls than are kept.  (The walls beyond 40 were left out without a word.) */
-Test(truth, walls_that_are_not_looked_at_are_told, .timeout = 120)
+Test(truth, walls_that_are_not_looked_at_are_told)
 {
     static const char *const extra[] = {"", " + sign(x - 2)*y'"};
     place p = place_make();
@@ -153,7 +153,7 @@ Test(truth, walls_that_are_not_looked_at_are_told, .timeout = 120)
     "  - y = -(35/188*x' + 35/94*y')*y'\n"
 
 /* (NONE, "search exhausted", although x' exp(35/188 x + 35/94 y) is conserved; "the ansatz is too large" of no columns.) */
-Test(truth, trials_that_find_nothing_prove_nothing, .timeout = 120)
+Test(truth, trials_that_find_nothing_prove_nothing)
 {
     static const char *const ansatz[] = {"exp(al*x + be*y)", "exp(al*x)*cosh(be*y)", "exp(al*x - be*y^2)", "(1 + x^2)^al*exp(be*y)"};
     static const double width[] = {40, 400, 4};

@@ -272,7 +272,7 @@ Test(simulate, what_cannot_be_started_is_explained)
 }
 
 /* Numbers that are too long for exact rationals: true to a double's digits is all that can be said, and must be said; false stays false. */
-Test(verify, rounded_numbers, .timeout = 60)
+Test(verify, rounded_numbers)
 {
     static const struct { const char *current; bool conserved; } list[] = {
         {"0.1234567890123456789*m*(v*sin(phi/k) + a*k*omega*cos(phi/k))", true},
