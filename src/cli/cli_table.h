@@ -25,6 +25,8 @@ bool nh_word_among(const char *words, const char *word);
       "read ansatz and motion from this analysis file")                                                                \
     X(opt_no_analysis, "no-analysis", no_argument, "", "analyze simulate benchmark",                                   \
       "ignore analysis files; the program chooses ansatz and motion")                                                  \
+    X(opt_route, "route", required_argument, "both|fields|currents", "analyze",                                        \
+      "fit symmetry fields first and currents then, or one of them alone")                                             \
     X(opt_velocities, "velocities", required_argument, "auto|quasi|coordinates",                                       \
       "analyze verify simulate benchmark export", "velocities of the computation")                                     \
     X(opt_json, "json", optional_argument, "[FILE|-]",                                                                 \

@@ -8,6 +8,7 @@ enum {
     opt_set = 256,
     opt_analysis,
     opt_no_analysis,
+    opt_route,
     opt_velocities,
     opt_json,
     opt_fragment,

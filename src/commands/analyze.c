@@ -112,7 +112,7 @@ static bool linear_problem(nh_analysis *result, size_t families, const nh_family
         result->samples = points->count;
         result->beyond = nh_points_equations(points) - points->count;
         result->rejected = points->tried - nh_points_equations(points);
-        if (result->question->route != NH_ROUTE_CURRENT) nh_routes_compare(result, a, points, s);
+        if (result->question->route == NH_ROUTE_BOTH) nh_routes_compare(result, a, points, s);
         result->timing.nullspace = lap(clock);
         nh_current_checker *bench = nh_current_checker_create(result, error);
         good = bench != NULL;
@@ -367,6 +367,7 @@ static bool run(nh_analysis *result, nh_analysis_question *question, const nh_re
     if (!read_files(result, question, q, error)) return false;
     merge_options(question, q);
     question->route = question->analysis ? question->analysis->route : NH_ROUTE_BOTH;
+    if (q->route) nh_analysis_file_route(q->route, &question->route, NULL);
     result->timing.read = lap(&clock);
     nh_progress("the equations of motion", -1);
     nh_budget_begin(question->options.work);

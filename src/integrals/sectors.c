@@ -253,20 +253,21 @@ static nh_nullspace *merge(const nh_sectors *s, nh_nullspace *const *part)
 }
 
 nh_nullspace *nh_sectors_solve(const nh_model *model, const nh_ansatz *a, const nh_sectors *sectors,
-                               const nh_points *points, const nh_nullspace_options *options, size_t threads,
-                               nh_error *error)
+                               const nh_field_bases *fields, const nh_points *points,
+                               const nh_nullspace_options *options, size_t threads, nh_error *error)
 {
     size_t n = a->columns, count = sectors->count;
     task t = {.sectors = sectors,
               .options = options,
-              .equations = nh_points_equations(points),
+              .equations = fields ? nh_field_rows_equations(model, fields, points->count) : nh_points_equations(points),
               .points = points->count,
               .threads = count < threads ? threads / count : 1};
     t.a = nh_alloc_array(n * (t.equations + t.points) + 1, sizeof *t.a);
     t.b = t.a + n * t.equations;
     t.part = nh_alloc_array(count + 1, sizeof *t.part);
     t.error = nh_alloc_array(count + 1, sizeof *t.error);
-    nh_rows_all(model, a, points, t.a, t.b);
+    if (fields) nh_field_rows_all(model, fields, a, 0, points, t.a, t.b);
+    else nh_rows_all(model, a, points, t.a, t.b);
     nh_parallel(count, threads, solve_sector, &t);
     nh_nullspace *whole = NULL;
     bool good = count > 0;

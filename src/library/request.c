@@ -48,6 +48,17 @@ bool nh_request_velocities(nh_request *q, const char *word, nh_error *error)
                                       : "velocities takes auto, quasi or coordinates");
 }
 
+bool nh_request_route(nh_request *q, const char *word, nh_error *error)
+{
+    nh_route route;
+    if (nh_analysis_file_route(word, &route, NULL)) {
+        q->route = nh_analysis_file_route_word(route);
+        return true;
+    }
+    nh_fail(error, NH_USAGE, "", "there is no route `%s`", word);
+    return nh_analysis_file_route(word, &route, error);
+}
+
 bool nh_request_method(nh_request *q, const char *word, nh_error *error)
 {
     const nh_method *one, **all;

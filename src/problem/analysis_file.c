@@ -34,6 +34,21 @@ bool nh_analysis_file_choice(const nh_deck *deck, const nh_deck_node *node, cons
     return nh_error_hint(error, "%s", list);
 }
 
+static const char *const route_words[] = {"both", "fields", "currents", "both", "symmetry", "current"};
+enum { route_word_count = sizeof route_words / sizeof *route_words };
+
+const char *nh_analysis_file_route_word(nh_route route) { return route_words[route]; }
+
+bool nh_analysis_file_route(const char *word, nh_route *route, nh_error *error)
+{
+    for (size_t i = 0; i < route_word_count; i++) {
+        if (strcmp(word, route_words[i])) continue;
+        *route = (nh_route)(i % NH_ROUTES);
+        return true;
+    }
+    return nh_error_hint_near(error, word, route_words, NH_ROUTES, "expected both, fields or currents");
+}
+
 /* The text under `key`, or the fallback. */
 static bool text_of(const nh_deck *deck, const nh_deck_node *map, const char *key, const char *fallback,
                     const char **out, nh_error *error)
@@ -63,8 +78,7 @@ static bool read_settings(nh_analysis_file *a, const nh_deck_node *map, nh_error
 
 static bool read_head(nh_analysis_file *a, nh_error *error)
 {
-    static const char *const routes[] = {"both", "symmetry", "current"},
-                             *const velocities[] = {"auto", "quasi", "coordinates"}, *const searches[] = {"yes", "no"};
+    static const char *const velocities[] = {"auto", "quasi", "coordinates"}, *const searches[] = {"yes", "no"};
     const nh_deck_node *root = nh_deck_root(a->deck), *node;
     size_t index = 0;
     if (!nh_deck_is(a->deck, root, NH_DECK_MAP, "an analysis file (system: ..., ansatz: ...)", error)) return false;
@@ -76,9 +90,13 @@ static bool read_head(nh_analysis_file *a, nh_error *error)
         return false;
     if (!text_of(a->deck, root, "title", "", &remark, error) || !text_of(a->deck, root, "doc", "", &remark, error))
         return false;
-    if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "route"), "route", 3, routes, &index, error)) return false;
-    a->route = (nh_route)index;
-    index = 0;
+    if ((node = nh_deck_get(root, "route"))) {
+        if (!nh_deck_is(a->deck, node, NH_DECK_SCALAR, "route", error)) return false;
+        if (!nh_analysis_file_route(node->text, &a->route, NULL)) {
+            nh_deck_fail(a->deck, node, 0, error, "unknown route `%s`", node->text);
+            return nh_analysis_file_route(node->text, &a->route, error);
+        }
+    }
     if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "velocities"), "velocities", 3, velocities, &index, error))
         return false;
     a->chart = (nh_chart_choice)index;

@@ -5,7 +5,8 @@
 #include "motion/dynamics.h"
 #include "integrals/unknowns.h"
 
-typedef enum { NH_ROUTE_BOTH, NH_ROUTE_SYMMETRY, NH_ROUTE_CURRENT } nh_route;
+/* What is fitted: fields first, then currents; fields alone; currents alone. */
+typedef enum { NH_ROUTE_BOTH, NH_ROUTE_FIELDS, NH_ROUTE_CURRENTS, NH_ROUTES } nh_route;
 
 /* A figure of the file. */
 typedef enum { NH_FIGURE_PATH, NH_FIGURE_PLOT, NH_FIGURE_SCAN, NH_FIGURE_SAMPLES } nh_figure_kind;
@@ -53,6 +54,10 @@ typedef struct {
     double until;
 } nh_analysis_file;
 
+/* "both", "fields" or "currents"; "symmetry" and "current" of earlier versions are read, too.  False: none of these,
+ * and `error` has a hint. */
+bool nh_analysis_file_route(const char *word, nh_route *route, nh_error *error);
+const char *nh_analysis_file_route_word(nh_route route);
 nh_analysis_file *nh_analysis_file_read(const char *path, nh_error *error);
 /* The same from a text, called `name` in messages. */
 /* "phi=0, omega=2" as the initial state; `name`: where it is written, for messages, whose code is `code`. */

@@ -123,7 +123,8 @@ static size_t rates(const nh_model *model, const rate_context *c, double *re, do
     double largest = 0, *A = nh_alloc_array(points->count * n + 1, sizeof *A),
            *B = nh_alloc_array(points->count * n + 1, sizeof *B);
     nh_nullspace_options limits = nh_nullspace_options_from(&c->x->r->question->options);
-    nh_rows_pencil(model, c->base, nh_model_gamma(model, c->q), points, A, B);
+    if (c->x->fields) nh_field_rows_all(model, c->x->fields, c->base, nh_model_X0(model, c->q), points, A, B);
+    else nh_rows_pencil(model, c->base, nh_model_gamma(model, c->q), points, A, B);
     nh_pencil *p = nh_pencil_solve(points->count, n, A, B, &limits, c->x->r->question->options.split, &ignored);
     for (size_t k = 0; p && k < p->dimension; k++) largest = fmax(largest, hypot(p->re[k], p->im[k]));
     for (size_t k = 0; p && k < p->dimension && count < most; k++) {
@@ -485,4 +486,16 @@ void nh_rates_search(nh_stage_solver *solver)
     for (size_t i = 0; i < model->m; i++) rates_along(solver, &model->system->coordinate[i]);
     volume_rate(solver);
     potential_rate(solver);
+}
+
+void nh_rates_of_fields(nh_stage_solver *solver, const nh_family *base)
+{
+    const nh_model *model = solver->r->question->model;
+    if (!nh_stage_solver_done(solver)) pencil_of(solver, model->system->t, "t, of fields", base, false);
+    for (size_t i = 0; i < model->m && !nh_stage_solver_done(solver); i++) {
+        char name[80];
+        nh_ex q = model->system->coordinate[i].q;
+        snprintf(name, sizeof name, "%.60s, of fields", nh_name_of(model->dag, q));
+        pencil_of(solver, q, name, base, false);
+    }
 }

@@ -192,10 +192,12 @@ nh_solved nh_stage_solver_solve(nh_stage_solver *solver, size_t families, const 
         s.ansatz = NULL;
     } else if (sectors.count) {
         nh_nullspace_options limits = nh_nullspace_options_from(options);
-        s.fit = nh_points_cover(model, count, (uint64_t)options->seed + r->stages, &ignored);
+        uint64_t seed = (uint64_t)options->seed + r->stages;
+        s.fit = solver->fields ? nh_points_create(model, count, 1, seed, &ignored)
+                               : nh_points_cover(model, count, seed, &ignored);
         if (s.fit)
-            s.nullspace =
-                nh_sectors_solve(model, s.ansatz, &sectors, s.fit, &limits, nh_threads(options->threads), &ignored);
+            s.nullspace = nh_sectors_solve(model, s.ansatz, &sectors, solver->fields, s.fit, &limits,
+                                           nh_threads(options->threads), &ignored);
     }
     nh_sectors_clear(&sectors);
     return s;
@@ -247,7 +249,7 @@ static void solve_elsewhere(nh_stage_solver *solver, const nh_solved *s, size_t 
     if (sectors.count && !limit_of(solver, &sectors, count).option)
         other->points = nh_points_create(&other->model, count, 1, (uint64_t)options->seed + r->stages, &ignored);
     if (other->points)
-        nullspace = nh_sectors_solve(&other->model, s->ansatz, &sectors, other->points, &limits,
+        nullspace = nh_sectors_solve(&other->model, s->ansatz, &sectors, NULL, other->points, &limits,
                                      nh_threads(options->threads), &ignored);
     if (nullspace) nh_other_values_take(other, s->ansatz, nullspace, pivots, pivot, options);
     nh_nullspace_free(nullspace);

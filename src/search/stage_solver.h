@@ -3,6 +3,7 @@
 #define NH_STAGE_SOLVER_H
 
 #include "integrals/dictionary.h"
+#include "integrals/field_rows.h"
 #include "integrals/reflection.h"
 #include "search/counted.h"
 #include "search/currents.h"
@@ -17,7 +18,8 @@ typedef struct {
     nh_counted counted;          /* stages that the count makes superfluous are left out */
     /* the present stage has few columns for its purpose: it may have as many as any ansatz */
     bool wide;
-    bool series; /* of the row with series: those with names were not enough */
+    const nh_field_bases *fields; /* the present stage fits fields that are made of these; NULL: it fits currents */
+    bool series;                  /* of the row with series: those with names were not enough */
 } nh_stage_solver;
 
 /* Points for the ranges of columns, and a current checker; no stages yet. */
@@ -68,6 +70,14 @@ void nh_linear_motion_search(nh_stage_solver *solver);
 bool nh_linear_motion_is(nh_stage_solver *solver);
 /* The same of functions of the coordinates that have such equations. */
 void nh_linear_motion_functions(nh_stage_solver *solver);
+/* Fields with simple components, which are functions of t and q: constants, positions, harmonics, the system's functions;
+ * products of these; linear in the velocities; times exponentials and waves with rates of a pencil. */
+void nh_field_fit_simple(nh_stage_solver *solver);
+void nh_field_fit_products(nh_stage_solver *solver);
+void nh_field_fit_linear(nh_stage_solver *solver);
+void nh_field_fit_rates(nh_stage_solver *solver);
+/* The last for one base, of the currents of X_i, in t and in each coordinate (rates.c). */
+void nh_rates_of_fields(nh_stage_solver *solver, const nh_family *base);
 /* Canonical momenta times 1 and positions, and centres of mass. */
 void nh_linear_fields_search(nh_stage_solver *solver);
 /* Momenta of the isometries of the kinetic energy, whatever the coordinates, and their products. */

@@ -87,12 +87,16 @@ static void primitives(nh_stage_solver *solver) { nh_missing_primitives(solver);
    for the last one, which is short and has as much as it needs. */
 typedef enum { KNOWN, FITTED, INTEGRATED, CONSTRUCTED, REST, ELSEWHERE, PARTS } part;
 
+/* What a row fits, for who asks for one route alone; BOTH belongs to either. */
+typedef enum { CURRENTS, FIELDS, BOTH } fitted;
+
 /* A row of the search: a stage of `stages`, or a search of its own.  At most 64 of them: there is a bit for each. */
 typedef struct {
     const char *name; /* for `left_out`, and docs/stages.md */
     part part;
     void (*run)(nh_stage_solver *solver); /* NULL: the stage */
     nh_stage_name stage;
+    fitted fits;
 } row;
 
 /* What is known comes first; then small linear problems, because what is found in them is short: those are left out in
@@ -100,36 +104,40 @@ typedef struct {
    motion, too, and what the count still misses is constructed.  What has no closed form is a series at last.  The
    search ends as soon as there can be no more.  docs/stages.md has what each row is worth. */
 static const row rows[] = {
-    {"constraints", KNOWN, nh_integrals_find, 0},         /* positions that they hold */
-    {"energy and momenta", KNOWN, energy_and_momenta, 0}, /* alone: no nearly dependent function replaces them */
-    {"potential of forces", KNOWN, force_potential, 0},   /* the energy with it */
-    {"linear fields", KNOWN, nh_linear_fields_search, 0}, /* translations, turns, boosts */
+    {"constraints", KNOWN, nh_integrals_find, 0, BOTH},         /* positions that they hold */
+    {"energy and momenta", KNOWN, energy_and_momenta, 0, BOTH}, /* alone: no nearly dependent function replaces them */
+    {"potential of forces", KNOWN, force_potential, 0, BOTH},   /* the energy with it */
+    {"linear fields", KNOWN, nh_linear_fields_search, 0, BOTH}, /* translations, turns, boosts */
+    {"simple fields", KNOWN, nh_field_fit_simple, 0, FIELDS},   /* components are constants, positions, harmonics */
     {"words", KNOWN, .stage = NH_STAGE_WORDS},            /* the energy, momenta, velocities, positions by themselves */
-    {"driven words", FITTED, .stage = NH_STAGE_DRIVE},    /* with what a force of t adds to them */
-    {"rational", FITTED, .stage = NH_STAGE_RATIONAL},     /* velocities in denominators */
-    {"linear motion", FITTED, nh_linear_motion_search, 0}, /* before the pencil, which has its rates by rounding */
-    {"hidden linear motion", FITTED, nh_linear_motion_functions, 0}, /* in coordinates that hide it */
-    {"rates", FITTED, nh_rates_search, 0},                           /* exponentials and waves with rates of a pencil */
+    {"fields", FITTED, nh_field_fit_products, 0, FIELDS}, /* components are products of them */
+    {"fields with rates", FITTED, nh_field_fit_rates, 0, FIELDS},    /* of a pencil over the momenta */
+    {"driven words", FITTED, .stage = NH_STAGE_DRIVE},               /* with what a force of t adds to them */
+    {"rational", FITTED, .stage = NH_STAGE_RATIONAL},                /* velocities in denominators */
+    {"linear motion", FITTED, nh_linear_motion_search, 0, CURRENTS}, /* before the pencil, whose rates are rounded */
+    {"hidden linear motion", FITTED, nh_linear_motion_functions, 0, CURRENTS}, /* in coordinates that hide it */
+    {"rates", FITTED, nh_rates_search, 0, CURRENTS}, /* exponentials and waves with rates of a pencil */
     {"words times positions", FITTED, .stage = NH_STAGE_WORDS_POSITIONS}, /* and times t */
     {"momenta times functions", FITTED, .stage = NH_STAGE_MOMENTA},       /* and harmonics, whatever L is */
-    {"isometries", FITTED, nh_isometries_search, 0},                      /* the same, whatever the coordinates */
-    {"turning velocities", FITTED, nh_velocity_turn_search, 0},           /* two velocities and their energy */
-    {"slopes", FITTED, nh_slopes_search, 0},                              /* two velocities by themselves */
-    {"last quadrature", FITTED, nh_quadratures_complete, 0},              /* where one is missing, or a linear one */
+    {"isometries", FITTED, nh_isometries_search, 0, CURRENTS},            /* the same, whatever the coordinates */
+    {"turning velocities", FITTED, nh_velocity_turn_search, 0, CURRENTS}, /* two velocities and their energy */
+    {"slopes", FITTED, nh_slopes_search, 0, CURRENTS},                    /* two velocities by themselves */
+    {"last quadrature", FITTED, nh_quadratures_complete, 0, CURRENTS},    /* where one is missing, or a linear one */
+    {"linear in velocities", FITTED, nh_field_fit_linear, 0, FIELDS},     /* fields of Runge and Lenz */
     {"degree 2", FITTED, .stage = NH_STAGE_DEGREE_2},                     /* from here on columns by the hundred */
     {"weights", FITTED, .stage = NH_STAGE_WEIGHTS},                       /* Runge and Lenz */
     {"weight 4", FITTED, .stage = NH_STAGE_WEIGHT_4},                     /* Kovalevskaya, Toda, Calogero */
     {"separation", FITTED, .stage = NH_STAGE_SEPARATION},                 /* Euler, Liouville */
     {"degree 2 in time", FITTED, .stage = NH_STAGE_TIME},                 /* Ermakov, Lewis */
     {"half angles", FITTED, .stage = NH_STAGE_HALF_ANGLES},               /* parabolic coordinates from polar ones */
-    {"named functions", FITTED, nh_stage_solver_named, 0}, /* Bessel, Gauss, .. of one coordinate, or of t */
-    {"quadratures", INTEGRATED, nh_quadratures_search, 0},
-    {"construct", CONSTRUCTED, nh_missing_find, 0},
-    {"primitives", REST, primitives, 0}, /* of the further integrals that it found */
-    {"series", REST, nh_stage_solver_series, 0},
-    {"frames", ELSEWHERE, nh_frames_search, 0},          /* in velocities along and across headings */
-    {"levels", ELSEWHERE, nh_integral_levels_search, 0}, /* on levels of linear integrals */
-    {"sides", ELSEWHERE, sides, 0},                      /* of kinks */
+    {"named functions", FITTED, nh_stage_solver_named, 0, CURRENTS}, /* Bessel, Gauss, .. of one coordinate, or of t */
+    {"quadratures", INTEGRATED, nh_quadratures_search, 0, CURRENTS},
+    {"construct", CONSTRUCTED, nh_missing_find, 0, CURRENTS},
+    {"primitives", REST, primitives, 0, CURRENTS}, /* of the further integrals that it found */
+    {"series", REST, nh_stage_solver_series, 0, CURRENTS},
+    {"frames", ELSEWHERE, nh_frames_search, 0, CURRENTS},          /* in velocities along and across headings */
+    {"levels", ELSEWHERE, nh_integral_levels_search, 0, CURRENTS}, /* on levels of linear integrals */
+    {"sides", ELSEWHERE, sides, 0, CURRENTS},                      /* of kinks */
 };
 
 enum { ROWS = sizeof rows / sizeof *rows };
@@ -157,13 +165,20 @@ static outcome outcome_of(const nh_analysis *result)
     return (outcome){list->count, list->pieces, list->independent, list->furthers};
 }
 
+/* Does the row belong to the route? */
+static bool is_on_route(const row *own, nh_route route)
+{
+    return own->fits == BOTH || route == NH_ROUTE_BOTH || (own->fits == FIELDS) == (route == NH_ROUTE_FIELDS);
+}
+
 /* One row, unless its part is done or the row is left out; `used` marks rows that changed something. */
 static void run_row(nh_stage_solver *solver, size_t i)
 {
     nh_stage stage;
     nh_analysis *result = solver->r;
     const row *own = &rows[i];
-    if (part_is_done(solver, own->part) || result->question->left_out >> i & 1) return;
+    if (!is_on_route(own, result->question->route) || part_is_done(solver, own->part)) return;
+    if (result->question->left_out >> i & 1) return;
     outcome before = outcome_of(result);
     solver->counted.on = own->part != KNOWN && own->part != CONSTRUCTED;
     if (own->run) own->run(solver);

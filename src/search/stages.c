@@ -106,8 +106,7 @@ nh_expr_set nh_expr_set_functions(const nh_family_list *s, bool one)
     return l;
 }
 
-/* prod over the angles of {1, cos, sin}. */
-static nh_expr_set waves(const nh_family_list *s)
+nh_expr_set nh_expr_set_waves(const nh_family_list *s)
 {
     nh_dag *d = s->o->dag;
     nh_expr_set l = {0};
@@ -160,7 +159,7 @@ static nh_expr_set times(const nh_family_list *s, const nh_expr_set *a, const nh
  * and with squares of the frame those of tensors, in polar coordinates. */
 static nh_expr_set frame_products(const nh_family_list *s)
 {
-    nh_expr_set f = {0}, w = waves(s), some = nh_expr_set_lengths(s, false, false),
+    nh_expr_set f = {0}, w = nh_expr_set_waves(s), some = nh_expr_set_lengths(s, false, false),
                 all = nh_expr_set_lengths(s, true, false), g = nh_expr_set_functions(s, false);
     nh_expr_set_put_all(&f, s->w->frames, s->w->frame);
     nh_expr_set out = times(s, &f, &some), squares = nh_expr_set_squares(s, &f), more = times(s, &squares, &all);
@@ -331,7 +330,8 @@ static nh_expr_set pencil_words(const nh_family_list *s, nh_pencil_base base)
     if (base >= NH_PENCIL_LINEAR) nh_expr_set_put_all(&l, w->frames, w->frame);
     if (base >= NH_PENCIL_LINEAR) nh_expr_set_put_all(&l, w->forms, w->form);
     size_t n = l.n;
-    if (base > NH_PENCIL_VELOCITIES && (double)n * pow(3, (double)w->waves) <= most_with_waves) v = waves(s);
+    if (base > NH_PENCIL_VELOCITIES && (double)n * pow(3, (double)w->waves) <= most_with_waves)
+        v = nh_expr_set_waves(s);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < v.n; j++) nh_expr_set_put(&l, nh_mul(s->o->dag, l.e[i], v.e[j]));
     if (base >= NH_PENCIL_TIME) nh_expr_set_put_time(s, &l);

@@ -30,6 +30,8 @@ nh_expr_set nh_expr_set_squares(const nh_family_list *families, const nh_expr_se
 nh_expr_set nh_expr_set_positions(const nh_family_list *families, bool one, bool time);
 /* 1, the coordinates that are not only in sines and cosines, their squares, t. */
 nh_expr_set nh_expr_set_lengths(const nh_family_list *families, bool squares_too, bool time);
+/* Products over the angles of {1, cos, sin}. */
+nh_expr_set nh_expr_set_waves(const nh_family_list *families);
 /* The system's own functions of position, with 1. */
 nh_expr_set nh_expr_set_functions(const nh_family_list *families, bool one);
 
