@@ -106,8 +106,13 @@ static bool linear_problem(nh_analysis *result, size_t families, const nh_family
     if (!a) return false;
     nh_points *points = fit_points(result, a->columns, error);
     result->timing.samples = lap(clock);
-    nh_nullspace *s = points ? current_route(result, a, points, error) : NULL;
+    bool fields = result->question->route == NH_ROUTE_FIELDS;
+    nh_ansatz *own = NULL; /* of the currents of fields */
+    nh_nullspace *s = !points  ? NULL
+                      : fields ? nh_routes_fields(result, a, points, &own, error)
+                               : current_route(result, a, points, error);
     bool good = s != NULL;
+    if (own) nh_ansatz_free(a), a = own;
     if (good) {
         result->samples = points->count;
         result->beyond = nh_points_equations(points) - points->count;
@@ -116,7 +121,7 @@ static bool linear_problem(nh_analysis *result, size_t families, const nh_family
         result->timing.nullspace = lap(clock);
         nh_current_checker *bench = nh_current_checker_create(result, error);
         good = bench != NULL;
-        nh_agreement_keep(result, families, family, a, s);
+        nh_agreement_keep(result, families, family, a, s, fields);
         if (good) collect(result, bench, a, points, s);
         if (good) nh_currents_finish(bench);
         nh_current_checker_free(bench);

@@ -277,6 +277,10 @@ static void put_field(const writer *w, nh_json *to, const nh_current *f)
         put_expression(w, relative, term[i].along ? term[i].along : "Gamma", term[i].coefficient);
     if (!relative) nh_json_put_null(item, "components_with_gamma");
     nh_json_put_number(item, "residual", z->noether_residual);
+    nh_json *residuals = nh_json_put_object(item, "residuals");
+    nh_json_put_number(residuals, "N0", z->off[0]);
+    nh_json_put_number(residuals, "NX", z->off[1]);
+    nh_json_put_number(residuals, "NY", z->off[2]);
     put_expressions(w, item, "i_bracket_phi", model->k, z->bracket_form);
 }
 

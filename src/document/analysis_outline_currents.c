@@ -246,6 +246,7 @@ static void current(nh_pen *p, const nh_analysis *result, const nh_current *f, b
     nh_pen_name_heading(p, nh_arena_printf(result->arena, "q-%s", f->name), f->name);
     tags(p, result, f);
     if (f->relation) p->ink->equation(p->to, "", f->relation);
+    if (f->has_symmetry && !f->series) field(p, result, f);
     if (f->series) nh_analysis_write_series(p, result, f);
     else closed_form(p, result, f);
     definitions(p, result, f, told);
@@ -263,9 +264,10 @@ static void current(nh_pen *p, const nh_analysis *result, const nh_current *f, b
         nh_pen_fact_begin(p, "Symmetry");
         p->ink->symmetry(p->to, &f->symmetry);
         nh_pen_close(p, NH_PEN_FACT);
+        const double *off = f->symmetry.off;
+        nh_pen_fact(p, "Residuals", "(N0) %.2g, (NX) %.2g, (NY) %.2g", off[0], off[1], off[2]);
     }
     nh_pen_close(p, NH_PEN_FACTS);
-    if (f->has_symmetry && !f->series) field(p, result, f);
     if (!f->series) as_text(p, result, f);
 }
 

@@ -13,7 +13,7 @@
 static void spectrum_plot(nh_pen *p, const nh_analysis *result)
 {
     const nh_spectrum *s[] = {&result->current, &result->symmetry};
-    static const char *const names[] = {"current route", "symmetry route"};
+    static const char *const names[] = {"fit of currents", "fit of fields"};
     nh_curve curve[2];
     size_t most = 0, curves = 0;
     for (int i = 0; i < 2; i++)
@@ -64,8 +64,8 @@ static void spectrum(nh_pen *p, const char *name, const nh_spectrum *s)
 static void spectra(nh_pen *p, const nh_analysis *result)
 {
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
-    spectrum(p, "Current route", &result->current);
-    spectrum(p, "Symmetry route", &result->symmetry);
+    spectrum(p, "Fit of fields", &result->symmetry);
+    spectrum(p, "Fit of currents", &result->current);
     nh_pen_close(p, NH_PEN_FACTS);
 }
 
@@ -74,11 +74,12 @@ static void comparisons(nh_pen *p, const nh_analysis *result)
     const nh_counted_space *c = &result->counted_space;
     if (c->compared)
         nh_pen_words(p,
-                     "The current route %s with the count of degree %zu: the largest angle between a null vector and "
+                     "%s %s with the count of degree %zu: the largest angle between a null vector and "
                      "the products of the currents is %.2g.",
-                     c->agrees ? "agrees" : "DISAGREES", c->degree, c->angle);
+                     c->fields ? "The fit of fields" : "The fit of currents", c->agrees ? "agrees" : "DISAGREES",
+                     c->degree, c->angle);
     if (result->routes_compared)
-        nh_pen_words(p, "The two routes %s: the angle between the spaces that they find is %.2g.",
+        nh_pen_words(p, "The two fits %s: the angle between the spaces that they find is %.2g.",
                      result->routes_agree ? "agree" : "DISAGREE", result->routes_angle);
 }
 

@@ -412,7 +412,7 @@ static void decide(nh_model *model, const nh_points *points, nh_symmetry *z, con
 /* The largest residual of the constraint Noether equations, relative to the largest of their terms.  For an integral of
  * the constraints all terms may vanish: there is nothing to compare rounding with, and the normal form decides. */
 double nh_symmetry_residual(const nh_model *model, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
-                            const nh_ex *W)
+                            const nh_ex *W, double kind[3])
 {
     static const double suspicious = 1e-9;
     size_t n = 1 + 2 * model->n, count = points->count;
@@ -433,9 +433,12 @@ double nh_symmetry_residual(const nh_model *model, const nh_points *points, nh_e
             if (isfinite(r)) off[i] = fmax(off[i], r);
         }
     }
-    for (size_t i = 0; i < n; i++)
-        if (off[i] > worst && (off[i] <= suspicious || nh_normal_is_zero(model->dag, e[i], 0) != NH_ZERO))
-            worst = off[i];
+    kind[0] = kind[1] = kind[2] = 0;
+    for (size_t i = 0; i < n; i++) {
+        double *own = &kind[i == 0 ? 0 : i <= model->n ? 1 : 2];
+        if (off[i] > *own && (off[i] <= suspicious || nh_normal_is_zero(model->dag, e[i], 0) != NH_ZERO)) *own = off[i];
+        worst = fmax(worst, *own);
+    }
     nh_free(value);
     nh_free(e);
     return worst;
@@ -487,6 +490,6 @@ bool nh_symmetry_of(nh_model *model, const nh_points *points, nh_ex phi, double 
     bracket(model, z, first, second, many ? nh_model_gamma(model, z->Z0) : nh_int(model->dag, 0));
     decide(model, points, z, Z, first, second, same);
     z->projectable = is_projectable(model, points, z, same);
-    z->noether_residual = nh_symmetry_residual(model, points, phi, z->Z0, z->zeta, z->W);
+    z->noether_residual = nh_symmetry_residual(model, points, phi, z->Z0, z->zeta, z->W, z->off);
     return true;
 }

@@ -29,7 +29,8 @@ typedef struct {
     nh_ex *bracket_form;    /* k: i_[Gamma,Z] phi^a */
     bool bracket_in_distribution, projectable;
     int kase;                /* 1, 2, 3; 0 when it could not be decided */
-    double noether_residual; /* largest relative residual of (N0), (NX), (NY) over the points */
+    double off[3];           /* largest relative residuals of (N0), (NX), (NY) over the points */
+    double noether_residual; /* the largest of them */
 } nh_symmetry;
 
 /* Expressions belong to the model's graph, arrays to its arena.  Fails where Lbar vanishes identically. `same`:
@@ -50,8 +51,8 @@ bool nh_symmetry_is_energy(const nh_model *model, nh_ex phi);
 nh_ex nh_symmetry_current(const nh_model *model, nh_ex Z0, const nh_ex *zeta);
 
 /* The largest residual of (N0), (NX) and (NY) [docs/method.md, eq. 11] over the points, relative to the largest of
- * their terms. */
+ * their terms; off: of each of the three. */
 double nh_symmetry_residual(const nh_model *model, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
-                            const nh_ex *W);
+                            const nh_ex *W, double off[3]);
 
 #endif

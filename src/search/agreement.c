@@ -9,14 +9,14 @@
 #include "search/spans.h"
 
 void nh_agreement_keep(nh_analysis *result, size_t families, const nh_family *family, const nh_ansatz *a,
-                       const nh_nullspace *s)
+                       const nh_nullspace *s, bool fields)
 {
     nh_sampled_space *x = nh_arena_alloc(result->arena, sizeof *x);
     bool timely = false;
     double degree = nh_counted_degree(result->question->model, families, family, &timely);
     if (degree < 1 || degree > NH_COUNT_HIGHEST_DEGREE) return;
     *x = (nh_sampled_space){
-        .degree = (size_t)degree, .timely = timely, .columns = a->columns, .dimension = s->dimension};
+        .degree = (size_t)degree, .timely = timely, .columns = a->columns, .dimension = s->dimension, .fields = fields};
     x->column = nh_arena_alloc(result->arena, (a->columns + 1) * sizeof *x->column);
     x->vector = nh_arena_alloc(result->arena, (a->columns * s->dimension + 1) * sizeof *x->vector);
     for (size_t j = 0; j < a->columns; j++) x->column[j] = nh_ansatz_column(a, j);
@@ -89,6 +89,7 @@ void nh_agreement_find(nh_analysis *result)
                *sampled = nh_span_values(model, p, x->columns, x->column, x->dimension, x->vector);
         result->counted_space =
             (nh_counted_space){.compared = true,
+                               .fields = x->fields,
                                .degree = x->degree,
                                .products = products,
                                .angle = nh_span_distance(p->count, products, all, x->dimension, sampled)};

@@ -90,6 +90,7 @@ typedef struct {
 typedef struct {
     size_t degree, columns, dimension;
     bool timely; /* t occurs */
+    bool fields; /* of a fit of fields */
     nh_ex *column;
     double *vector; /* columns x dimension */
 } nh_sampled_space;
@@ -97,7 +98,7 @@ typedef struct {
 /* The null vectors compared with the counted space, where the count is complete to their degree: the space is spanned
  * by products of the currents. */
 typedef struct {
-    bool compared, agrees;
+    bool compared, agrees, fields;
     size_t degree, products;
     double angle; /* the largest distance of a null vector from the space */
 } nh_counted_space;
@@ -217,7 +218,7 @@ struct nh_analysis {
     size_t stages, stage_capacity;
     nh_stage_record *stage; /* of the staged search; empty with an analysis file */
     uint64_t used;          /* rows of the search that found something, bit i for row i */
-    nh_spectrum current, symmetry;
+    nh_spectrum current, symmetry; /* of fits of currents, of fields */
     bool routes_compared, routes_agree;
     double routes_angle;
     nh_sampled_space *sampled; /* NULL: an ansatz that the program chose, or not polynomial in the velocities */

@@ -64,7 +64,8 @@ static bool field_agrees(const nh_model *model, const nh_model *other, const nh_
         zeta[i] = nh_chart_composed(model->chart, nh_chart_shown(model->chart, z->zeta[i]), other->chart);
         W[i] = nh_chart_composed(model->chart, nh_chart_shown(model->chart, z->W[i]), other->chart);
     }
-    bool good = nh_symmetry_residual(other, points, phi, e[0], zeta, W) <= enough;
+    double kind[3];
+    bool good = nh_symmetry_residual(other, points, phi, e[0], zeta, W, kind) <= enough;
     nh_free(e);
     return good;
 }

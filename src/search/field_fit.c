@@ -34,8 +34,10 @@ static bool begin(nh_stage_solver *solver, fit *f)
     return true;
 }
 
+/* What is too large is left out: stages of currents follow that have the same functions in fewer columns. */
 static void solve(nh_stage_solver *solver, const fit *f, const char *name)
 {
+    if (nh_ansatz_size(f->list.count, f->list.family) > solver->r->question->options.stage_columns) return;
     solver->fields = &f->bases;
     nh_stage_solver_stage(solver, name, f->list.count, f->list.family);
     solver->fields = NULL;
@@ -96,7 +98,6 @@ void nh_field_fit_simple(nh_stage_solver *solver)
 
 void nh_field_fit_products(nh_stage_solver *solver)
 {
-    enum { most_angles = 3 }; /* products of the harmonics of more are too many */
     fit f;
     if (!begin(solver, &f)) return;
     nh_expr_set bases = bases_of(&f, false), lengths = nh_expr_set_lengths(&f.list, false, true),

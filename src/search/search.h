@@ -26,17 +26,23 @@ const char *nh_staged_search_row(size_t i);
  * degree.  Where the count is complete this space is spanned by products of the proved currents: every null vector must
  * be a combination of these products, at points that neither was computed with. */
 
-/* Keeps the null vectors of the sampled problem until the count is known. */
+/* Keeps the null vectors of a sampled problem, a fit of fields or of currents, until the count is known. */
 void nh_agreement_keep(nh_analysis *result, size_t families, const nh_family *family, const nh_ansatz *ansatz,
-                       const nh_nullspace *nullspace);
+                       const nh_nullspace *nullspace, bool fields);
 
 /* Sets result->counted_space; a disagreement is a warning as well.  Does nothing where the count is not complete to the
  * ansatz's degree. */
 void nh_agreement_find(nh_analysis *result);
 
-/* The symmetry route beside the current route, and whether they agree. */
+/* Fields fitted with the ansatz of an analysis file: for themselves, or to be compared with the currents. */
 
-/* Fit (Z^0, zeta) in the span of the fields of the ansatz' currents, and compare the spaces of currents found:
+/* Fits (Z^0, zeta) in the span of the fields of the ansatz' currents, each component for itself.  `currents`: an ansatz
+ * of their currents; returned are the null vectors in it, written in independent ones of its columns.  The caller frees
+ * both.  NULL: too large an ansatz, or no solution. */
+nh_nullspace *nh_routes_fields(nh_analysis *result, const nh_ansatz *ansatz, const nh_points *points,
+                               nh_ansatz **currents, nh_error *error);
+
+/* The same, and compares the spaces of currents found:
  * result->symmetry, routes_agree, routes_angle (the sine of the largest angle between them over the sample points). */
 void nh_routes_compare(nh_analysis *result, const nh_ansatz *ansatz, const nh_points *points,
                        const nh_nullspace *current);

@@ -30,6 +30,7 @@
 #include "integrals/prove.h"
 #include "search/current_list.h"
 #include "search/other_values.h"
+#include "search/search.h"
 
 enum { range_points = 256, range_points_each = 10, least_points = 256, least_tested = 60 };
 static const double points_per_column = 2.5;
@@ -118,11 +119,15 @@ nh_stage_record *nh_stage_solver_note(nh_stage_solver *solver, const char *name)
     return &result->stage[result->stages++];
 }
 
-/* The spectrum that is reported: of the last stage that found something, else of the largest. */
+/* The spectra that are reported: of the last stage that found something, else of the largest; of fields the first. */
 static void keep_spectrum(nh_stage_solver *solver, const nh_nullspace *s, bool found)
 {
     nh_analysis *r = solver->r;
     bool alone = r->current.columns < 3 && s->columns >= 3; /* the energy alone: one value shows no gap */
+    if (solver->fields) {
+        if (!r->symmetry.done || found) r->symmetry = nh_spectrum_of(r->arena, s);
+        return;
+    }
     bool better = !r->current.done || found || alone || (r->list->count == 0 && s->columns > r->current.columns);
     if (better) r->current = nh_spectrum_of(r->arena, s);
 }
@@ -358,6 +363,8 @@ void nh_stage_solver_stage(nh_stage_solver *solver, const char *name, size_t fam
             if (!note->undecided && refuted < likely - note->dimension) note->dimension = likely - refuted;
         }
         keep_spectrum(solver, s.nullspace, note->found > 0);
+        if (solver->fields && s.nullspace->likely == s.nullspace->dimension)
+            nh_agreement_keep(result, families, family, s.ansatz, s.nullspace, true);
     }
     note->seconds = nh_clock() - start;
     nh_solved_clear(&s);

@@ -119,7 +119,7 @@ static const row rows[] = {
     {"rates", FITTED, nh_rates_search, 0, CURRENTS}, /* exponentials and waves with rates of a pencil */
     {"words times positions", FITTED, .stage = NH_STAGE_WORDS_POSITIONS}, /* and times t */
     {"momenta times functions", FITTED, .stage = NH_STAGE_MOMENTA},       /* and harmonics, whatever L is */
-    {"isometries", FITTED, nh_isometries_search, 0, CURRENTS},            /* the same, whatever the coordinates */
+    {"isometries", FITTED, nh_isometries_search, 0, BOTH},                /* the same, whatever the coordinates */
     {"turning velocities", FITTED, nh_velocity_turn_search, 0, CURRENTS}, /* two velocities and their energy */
     {"slopes", FITTED, nh_slopes_search, 0, CURRENTS},                    /* two velocities by themselves */
     {"last quadrature", FITTED, nh_quadratures_complete, 0, CURRENTS},    /* where one is missing, or a linear one */
