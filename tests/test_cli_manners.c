@@ -350,7 +350,7 @@ Test(cli_manners, the_spectrum_is_drawn, PLAIN_ONLY)
     place p = place_with_systems();
     finished f = run_expecting(&p, "analyze -v sleigh", 0);
     int height[200];
-    const char *line = strstr(f.out, "current route: "), *bars = line ? line : "";
+    const char *line = strstr(f.out, "fit of currents: "), *bars = line ? line : "";
     cr_assert_eq(read_bars(bars, height, 200), 17u, "one bar for every independent column: %.200s", bars);
     for (size_t i = 0; i < 17; i++) cr_expect(i < 4 ? height[i] <= 2 : height[i] >= 7, "bar %zu is %d high", i, height[i]);
     finished_clear(&f);

@@ -40,7 +40,7 @@
     X(doubt, 1e-6, 0, 1, real, "", "gradient fraction below which a current is dependent")                             \
     X(same, 1e-9, 0, 1, real, "", "relative difference below which two fields agree at a point")                       \
     X(recognise, 1e-10, 0, 1, real, "", "relative difference below which a number is taken for a simple one")          \
-    X(agreement, 1e-8, 0, 1, real, "", "largest angle between spaces found by two routes, or counted")                 \
+    X(agreement, 1e-8, 0, 1, real, "", "largest angle between spaces found by two fits, or counted")                   \
     X(evaluations, 200, 10, 1e7, whole, "", "objective evaluations of the global search per unknown")                  \
     X(bits, 256, 64, 4096, whole, "bits", "working precision of ball arithmetic")                                      \
     X(digits, 50, 10, 1000, whole, "digits", "digits to which a residual must vanish to be certified")                 \

@@ -9,6 +9,7 @@
 #include "document/formula.h"
 #include "document/screen.h"
 #include "document/sheet.h"
+#include "graph/dag.h"
 #include "graph/node.h"
 #include "graph/print.h"
 #include "integrals/fixed.h"
@@ -224,28 +225,39 @@ static void put_quantities(const screen *x)
     }
 }
 
-/* The names of repeated parts that the written formulas need, once for all quantities.  Each part uses later names
- * only. */
+/* "A_1 = x^2 + y^2". */
+static void put_part(const screen *x, const char *name, const char *value)
+{
+    nh_text block;
+    const char *line = nh_arena_printf(x->r->arena, "%s = %s", name, value);
+    nh_text_init(&block);
+    nh_screen_broken(NH_SCREEN_HANG - 1, 2 * NH_SCREEN_HANG, line, &block);
+    nh_screen_formula(x->out, x->colour, nh_text_string(&block));
+    nh_text_clear(&block);
+}
+
+/* The names of repeated parts that the written formulas need, once for all quantities: those that the analysis file
+ * defines, then those of the program.  Each part uses later names only. */
 static void put_parts(const screen *x)
 {
     nh_dag *d = x->r->question->model->dag;
     bool used[NH_FORMULA_PARTS] = {false};
+    const nh_analysis_file *file = x->r->question->analysis;
+    for (size_t i = 0; file && i < file->definitions; i++)
+        for (size_t k = 0; k < x->r->list->count; k++) {
+            if (!x->written[k] || !nh_depends(d, x->list.formula[k], nh_symbol(d, file->definition[i].name))) continue;
+            put_part(x, file->definition[i].name, file->definition[i].text);
+            break;
+        }
     for (size_t i = 0; i < x->list.parts && x->list.named; i++) {
         const nh_formula_part *part = x->list.part;
         for (size_t k = 0; k < x->r->list->count; k++)
             used[i] |= x->written[k] && nh_depends(d, x->list.formula[k], part[i].symbol);
         for (size_t j = 0; j < i; j++) used[i] |= used[j] && nh_depends(d, part[j].value, part[i].symbol);
         if (!used[i]) continue;
-        nh_text line, block;
-        nh_text_init(&line);
-        nh_text_init(&block);
         char *value = nh_print_string(d, x->list.part[i].value);
-        nh_text_addf(&line, "%s = %s", x->list.part[i].name, value);
-        nh_screen_broken(NH_SCREEN_HANG - 1, 2 * NH_SCREEN_HANG, nh_text_string(&line), &block);
-        nh_screen_formula(x->out, x->colour, nh_text_string(&block));
+        put_part(x, x->list.part[i].name, value);
         nh_free(value);
-        nh_text_clear(&block);
-        nh_text_clear(&line);
     }
 }
 

@@ -135,6 +135,10 @@ nh_ex nh_current_signed(const nh_analysis *result, const nh_current *f, nh_ex e)
 const char *nh_current_label(const nh_analysis *result, const nh_current *f)
 {
     nh_dag *d = result->question->model->dag;
+    if (f->symbol) {
+        bool minus = nh_current_is_energy(f) && f->meaning[0] == 'm' && !nh_depends(d, f->phi, nh_symbol(d, "E"));
+        return nh_arena_printf(result->arena, minus ? "%s = -E,  E = " : "%s = ", f->symbol);
+    }
     if (nh_current_is_energy(f) && !nh_depends(d, f->phi, nh_symbol(d, "E"))) return "E = ";
     const char *of = strstr(f->meaning, "momentum of ");
     bool bare = of && (of == f->meaning || !strncmp(f->meaning, "minus the ", 10));

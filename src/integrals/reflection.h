@@ -54,7 +54,7 @@ void nh_sectors_clear(nh_sectors *sectors);
 /* The null space of the equations of fields, or of currents where `fields` is NULL, sector by sector on up to `threads`
  * threads; the result does not depend on their number. Columns that are not finite at some point are left out. */
 nh_nullspace *nh_sectors_solve(const nh_model *model, const nh_ansatz *ansatz, const nh_sectors *sectors,
-                               const nh_field_bases *fields, const nh_points *points, const nh_nullspace_options *options, size_t threads,
-                               nh_error *error);
+                               const nh_field_bases *fields, const nh_points *points,
+                               const nh_nullspace_options *options, size_t threads, nh_error *error);
 
 #endif

@@ -27,6 +27,7 @@ typedef struct {
 
 typedef struct {
     const char *name;    /* Phi1, Phi2, ... */
+    const char *symbol;  /* how the system's file says that its source calls it; or NULL */
     const char *meaning; /* "energy", "minus the momentum of x", "a multiple of the energy", or "" */
     bool energy;         /* it is a multiple of the energy */
     nh_ex phi;           /* in the chart */
@@ -216,8 +217,8 @@ struct nh_analysis {
     /* beyond: points where the chart's pivot is near zero, from the multiplier form */
     size_t samples, beyond, rejected;
     size_t stages, stage_capacity;
-    nh_stage_record *stage; /* of the staged search; empty with an analysis file */
-    uint64_t used;          /* rows of the search that found something, bit i for row i */
+    nh_stage_record *stage;        /* of the staged search; empty with an analysis file */
+    uint64_t used;                 /* rows of the search that found something, bit i for row i */
     nh_spectrum current, symmetry; /* of fits of currents, of fields */
     bool routes_compared, routes_agree;
     double routes_angle;
@@ -227,7 +228,7 @@ struct nh_analysis {
     size_t specials;
     nh_special *special;
     size_t open;        /* null vectors that may be true, but have no certificate */
-    const char *letter; /* first letters of the names of currents, as Phi in Phi1; see nh_currents_name */
+    const char *letter; /* first letters of the names of currents, as Phi in Phi1; see nh_current_list_name */
     size_t relations;   /* polynomial ones among currents and further integrals; at most NH_MOST_RELATIONS */
     nh_further_relation *relation;
     size_t stateds; /* of the system file, in its order */

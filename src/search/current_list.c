@@ -1,7 +1,9 @@
 #include "search/current_list.h"
 
+#include <stdio.h>
 #include <string.h>
 
+#include "graph/dag.h"
 #include "graph/measure.h"
 
 /* The list, which is constant for everybody but the functions of this file, and its entries. */
@@ -78,6 +80,13 @@ void nh_current_list_sort(nh_analysis *result)
     }
 }
 
+void nh_current_list_move(nh_analysis *result, size_t from, size_t to)
+{
+    nh_current *found = entries(result->list->found), f = found[from];
+    for (size_t k = from; k > to; k--) found[k] = found[k - 1];
+    found[to] = f;
+}
+
 void nh_current_list_rank(nh_analysis *result, const nh_independence *kind, const double *fraction)
 {
     nh_current_list *list = own(result);
@@ -123,4 +132,49 @@ bool nh_current_list_append_further(nh_analysis *result, const nh_current *check
     if (!list->further) list->further = nh_arena_alloc(result->arena, NH_MOST_FURTHER * sizeof *list->further);
     ((nh_further_integral *)list->further)[list->furthers++] = (nh_further_integral){*checked, degree};
     return true;
+}
+
+/* ---- names ---- */
+
+/* Is a symbol named by these letters and a number? */
+static bool is_used(const nh_dag *d, const char *letters)
+{
+    enum { most = 99 };
+    char name[24];
+    nh_ex symbol;
+    for (int k = 0; k <= most; k++) {
+        snprintf(name, sizeof name, "%s%d", letters, k);
+        if (nh_symbol_find(d, name, &symbol)) return true;
+    }
+    return false;
+}
+
+const char *nh_current_list_name(nh_analysis *result, size_t number)
+{
+    static const char *const letters[] = {"Phi", "Psi", "Xi", "Current"};
+    for (size_t i = 0; !result->letter; i++)
+        if (i + 1 == sizeof letters / sizeof *letters || !is_used(result->question->model->dag, letters[i]))
+            result->letter = letters[i];
+    return nh_arena_printf(result->arena, "%s%zu", result->letter, number);
+}
+
+/* Has the source of the system this name for a current? */
+static bool is_symbol(const nh_current_list *list, const char *name)
+{
+    for (size_t k = 0; k < list->count; k++)
+        if (list->found[k].symbol && !strcmp(list->found[k].symbol, name)) return true;
+    return false;
+}
+
+void nh_current_list_name_all(nh_analysis *result)
+{
+    const nh_current_list *list = result->list;
+    for (size_t k = 0, number = 0; k < list->count; k++) {
+        const char *name = list->found[k].symbol;
+        while (!name) {
+            name = nh_current_list_name(result, ++number);
+            if (is_symbol(list, name)) name = NULL;
+        }
+        nh_current_list_describe(result, &list->found[k])->name = name;
+    }
 }

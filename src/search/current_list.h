@@ -22,8 +22,15 @@ size_t nh_current_list_take_all(nh_analysis *result, bool (*leaves)(const nh_cur
 /* The energy first, then the simple ones, so that complicated ones are called dependent; equally simple ones in an
  * order that does not depend on rounding. */
 void nh_current_list_sort(nh_analysis *result);
+/* Takes number `from` to the place `to` before it; those between move up. */
+void nh_current_list_move(nh_analysis *result, size_t from, size_t to);
 /* Whether each of them is independent of those before it; fraction[k] of its gradient is. */
 void nh_current_list_rank(nh_analysis *result, const nh_independence *kind, const double *fraction);
+
+/* "Phi3"; "Psi3" where the system has a symbol such as Phi1, and so on.  In the arena. */
+const char *nh_current_list_name(nh_analysis *result, size_t number);
+/* Names all that were found: by the source's symbols, or by numbers that no symbol has. */
+void nh_current_list_name_all(nh_analysis *result);
 
 /* The formulas, and whether each is proved: list->count of both. */
 void nh_current_list_formulas(const nh_current_list *list, nh_ex *phi, bool *proved);

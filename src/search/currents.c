@@ -75,28 +75,6 @@ static void decide(nh_current_checker *checker, nh_candidate *c, nh_current *f)
     if (f->heldout > options->heldout && f->proof.digits >= open_digits) f->heldout = pow(10, -f->proof.digits);
 }
 
-/* Is a symbol named by these letters and a number? */
-static bool is_used(const nh_dag *d, const char *letters)
-{
-    enum { most = 99 };
-    char name[24];
-    nh_ex symbol;
-    for (int k = 0; k <= most; k++) {
-        snprintf(name, sizeof name, "%s%d", letters, k);
-        if (nh_symbol_find(d, name, &symbol)) return true;
-    }
-    return false;
-}
-
-const char *nh_currents_name(nh_analysis *result, size_t number)
-{
-    static const char *const letters[] = {"Phi", "Psi", "Xi", "Current"};
-    for (size_t i = 0; !result->letter; i++)
-        if (i + 1 == sizeof letters / sizeof *letters || !is_used(result->question->model->dag, letters[i]))
-            result->letter = letters[i];
-    return nh_arena_printf(result->arena, "%s%zu", result->letter, number);
-}
-
 /* Refines combinations that doubles propose, with many digits at exact points, which decide. */
 static void decide_ranks(nh_analysis *result, const nh_ex *phi, nh_independence *kind)
 {
@@ -130,8 +108,7 @@ static void independence(nh_analysis *result, const nh_points *generic)
     nh_free(exact);
     decide_ranks(result, phi, kind);
     nh_current_list_rank(result, kind, fraction);
-    for (size_t k = 0; k < list->count; k++)
-        nh_current_list_describe(result, &list->found[k])->name = nh_currents_name(result, k + 1);
+    nh_current_list_name_all(result);
     nh_free(fraction);
     nh_free(kind);
     nh_free(phi);
@@ -473,7 +450,7 @@ static void name_pieces(nh_current_checker *checker)
         keep[k] = !nh_currents_known(checker, list->piece[k].phi, list->piece[k].proof.proved);
     nh_current_list_keep_pieces(result, keep);
     for (size_t k = 0; k < list->pieces; k++)
-        nh_current_list_describe(result, &list->piece[k])->name = nh_currents_name(result, list->count + k + 1);
+        nh_current_list_describe(result, &list->piece[k])->name = nh_current_list_name(result, list->count + k + 1);
 }
 
 static bool is_known_series(const nh_current *f) { return f->series && f->independence != NH_INDEPENDENT; }
@@ -500,6 +477,7 @@ void nh_currents_finish(nh_current_checker *checker)
     name_pieces(checker);
     forget_known_almosts(checker);
     nh_current_list_sort(checker->result);
+    nh_described_by_source(checker);
     independence(checker->result, checker->generic);
     if (forget_known_series(checker->result)) independence(checker->result, checker->generic);
     nh_dependence_on_known(checker->result);

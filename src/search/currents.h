@@ -31,9 +31,6 @@ bool nh_currents_add_further(nh_current_checker *bench, nh_candidate *candidate,
 size_t nh_currents_set_aside(nh_current_checker *bench, nh_current **aside);
 void nh_currents_take_back(nh_current_checker *bench, size_t n, const nh_current *aside);
 
-/* "Phi3"; "Psi3" where the system has a symbol such as Phi1, and so on.  Belongs to the arena of the analysis. */
-const char *nh_currents_name(nh_analysis *analysis, size_t number);
-
 /* Is a function independent of the currents found, at these points?  In doubles up to `doubt` of its gradient; from
  * there to the option `sure` in ball arithmetic.  exact: its numbers are. */
 nh_independence nh_currents_beside(const nh_analysis *analysis, const nh_points *points, nh_ex current, bool exact,

@@ -248,7 +248,7 @@ void nh_dependence_on_known(nh_analysis *result)
         phi[n] = f->phi;
         for (size_t i = 0; i < n && !f->doc; i++)
             if (*doc[i] && multiple(result, points, n, i, symbol, phi)) f->doc = doc[i];
-        if (f->meaning[0]) continue;
+        if (f->meaning[0] || f->symbol) continue;
         f->known = combination(result, points, n, symbol, phi);
         if (!f->known) f->known = product(result, points, n, symbol, phi);
     }

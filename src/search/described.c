@@ -4,11 +4,14 @@
 #include <string.h>
 
 #include "exact/normal.h"
+#include "exact/relation_express.h"
 #include "graph/dag.h"
 #include "graph/function.h"
 #include "graph/node.h"
 #include "integrals/fixed.h"
 #include "integrals/symmetry.h"
+#include "problem/analysis_file.h"
+#include "search/current_list.h"
 
 static const size_t longest = 3000; /* largest complexity of a current whose form is chosen here */
 
@@ -198,4 +201,40 @@ void nh_described_fill(nh_current_checker *checker, nh_current *f)
     f->local = is_local(result->question->model, checker->generic, f->phi, f->series);
     find_meaning(result, checker->generic, f);
     nh_current_in_velocities(checker, f);
+}
+
+/* phi = c e with c a function of the parameters, exactly? */
+static bool is_multiple(const nh_analysis *result, nh_ex phi, nh_ex e)
+{
+    const nh_model *model = result->question->model;
+    nh_ex c, pair[2] = {e, phi};
+    return nh_relation_express(model->dag, 2, pair, model->system->parameters, model->parameter,
+                               (size_t)result->question->options.proof_terms, &c);
+}
+
+void nh_described_by_source(nh_current_checker *checker)
+{
+    nh_analysis *result = checker->result;
+    const nh_current_list *list = result->list;
+    nh_model *model = result->question->model;
+    size_t place = 0;
+    for (size_t k = 0; k < model->system->currents; k++) {
+        const nh_named *known = &model->system->current[k];
+        nh_ex own;
+        nh_error ignored;
+        nh_error_clear(&ignored);
+        if (!known->symbol || !nh_analysis_file_to_chart(model, known->value, &own, &ignored)) continue;
+        own = nh_simplify_short(model->dag, own, 0);
+        for (size_t i = place; i < list->count; i++) {
+            if (list->found[i].series || !list->found[i].proof.proved) continue;
+            if (!is_multiple(result, list->found[i].phi, own)) continue;
+            nh_current_list_move(result, i, place);
+            nh_current *f = nh_current_list_describe(result, &list->found[place++]);
+            f->phi = own;
+            f->symbol = known->symbol;
+            find_meaning(result, checker->generic, f);
+            nh_current_in_velocities(checker, f);
+            break;
+        }
+    }
 }

@@ -276,7 +276,7 @@ void nh_missing_name_further(nh_analysis *result)
 {
     for (size_t k = 0; k < result->list->furthers; k++)
         nh_current_list_describe(result, &result->list->further[k].current)->name =
-            nh_currents_name(result, result->list->count + result->list->pieces + k + 1);
+            nh_current_list_name(result, result->list->count + result->list->pieces + k + 1);
     if (result->list->furthers) find_relations(result);
 }
 

@@ -60,6 +60,8 @@ static size_t columns_of(const nh_analysis *result, const nh_ansatz *a, nh_field
 
 /* ---- fields by themselves ---- */
 
+static const double rounding = 1e-9; /* of a column that depends on others, relative to its size */
+
 /* Values of expressions at the points, centred; points x n (nh_free). */
 static double *centred(const nh_model *model, const nh_points *points, size_t n, const nh_ex *e)
 {
@@ -78,13 +80,12 @@ static double *centred(const nh_model *model, const nh_points *points, size_t n,
  * after another at the head of `kept`. */
 static size_t independent_columns(size_t count, size_t n, const double *value, bool *dropped, double *kept)
 {
-    static const double rounding = 1e-9;
     double *unit = nh_alloc_array(count * n + 1, sizeof *unit);
     size_t rank = 0;
     for (size_t j = 0; j < n; j++) {
         double *own = unit + rank * count, before = nh_norm(count, value + j * count);
         memcpy(own, value + j * count, count * sizeof *own);
-        for (size_t pass = 0; pass < 2; pass++)
+        for (size_t again = 0; again < 2; again++)
             for (size_t i = 0; i < rank; i++) {
                 double dot = 0;
                 for (size_t p = 0; p < count; p++) dot += unit[i * count + p] * own[p];
@@ -116,7 +117,7 @@ static void write_in_currents(const nh_model *model, const nh_points *points, co
         for (size_t j = 0; j < s->columns; j++)
             for (size_t p = 0; p < count; p++)
                 right[k * count + p] += s->vector[k * s->columns + j] * field[j * count + p];
-    nh_least_squares(count, rank, kept, d, right, count, 1e-12);
+    nh_least_squares(count, rank, kept, d, right, count, rounding);
     for (size_t k = 0; k < d; k++)
         for (size_t j = 0, i = 0; j < n; j++)
             if (!dropped[j]) vector[k * n + j] = right[k * count + i++];

@@ -44,6 +44,7 @@ typedef struct {
 
 typedef struct {
     const char *name, *text, *doc; /* doc: a sentence about a known current, or "" */
+    const char *symbol;            /* of a known current: how its source calls it, "Phi_2", or NULL */
     nh_ex value;
     /* of a known current: the reason why the program's own ansatz does not contain it, or NULL */
     const char *out_of_reach;

@@ -5,6 +5,7 @@
 #include "graph/dag.h"
 #include "graph/diff.h"
 #include "graph/declared.h"
+#include "graph/name.h"
 #include "graph/node.h"
 #include "system/system_internal.h"
 
@@ -354,7 +355,7 @@ bool nh_system_truth_of(nh_system_reader *r, const nh_deck_node *map, const char
 static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, const char *key, nh_named **out,
                             size_t *count)
 {
-    static const char *const keys[] = {"name", "expr", "doc", "out_of_reach", "unwatched"};
+    static const char *const keys[] = {"name", "expr", "doc", "symbol", "out_of_reach", "unwatched"};
     const nh_deck_node *list;
     size_t n;
     if (!nh_system_list_of(r, known, key, &list, &n)) return false;
@@ -363,12 +364,16 @@ static bool read_named_list(nh_system_reader *r, const nh_deck_node *known, cons
         const nh_deck_node *item = list->item[i];
         nh_named *named = &(*out)[*count];
         if (!nh_deck_is(r->deck, item, NH_DECK_MAP, "an entry {name: ..., expr: ...}", r->error)) return false;
-        if (!nh_deck_only(r->deck, item, keys, 5, r->error)) return false;
+        if (!nh_deck_only(r->deck, item, keys, sizeof keys / sizeof *keys, r->error)) return false;
         const nh_deck_node *expr = nh_deck_get(item, "expr");
         if (!expr) return nh_deck_fail(r->deck, item, 0, r->error, "this entry has no `expr`");
         *named = (nh_named){.text = expr->text};
         if (!nh_system_text_of(r, item, "name", "", &named->name)) return false;
         if (!nh_system_text_of(r, item, "doc", "", &named->doc)) return false;
+        if (!nh_system_text_of(r, item, "symbol", NULL, &named->symbol)) return false;
+        if (named->symbol && !nh_is_name(named->symbol))
+            return nh_deck_fail(r->deck, nh_deck_get(item, "symbol"), 0, r->error,
+                                "`%s` is no symbol: letters, digits and _, as in Phi_2", named->symbol);
         if (!nh_system_text_of(r, item, "out_of_reach", NULL, &named->out_of_reach)) return false;
         if (!nh_system_truth_of(r, item, "unwatched", "a current without a column in `simulate` and `benchmark`",
                                 &named->unwatched))
