@@ -13,6 +13,7 @@
 #   make reductions reduce every system from STATES=50 initial states, and write docs/reductions.md
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
 #   make parameters give every system other parameter values, compare its formulas, and write docs/parameters.md (it continues where it was stopped; SEED=N)
+#   make fields    fit fields in each system, and write docs/fields.md (minutes)
 #   make stages    leave out each row of the search over five sets of systems, and write docs/stages.md (an hour; it continues where it was stopped)
 #   make perturbed analyse copies of every system with a small term added, and print the table
 #   make house     count files, functions and headers, and write the tables of docs/modules.md
@@ -111,7 +112,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed stages classification house site fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized help debug coverage format compile_commands.json
+.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed stages fields classification house site fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized help debug coverage format compile_commands.json
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -201,6 +202,10 @@ stages: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) benches
 	@mkdir -p $(BUILD)/stages
 	$(call page,$(BUILD)/tests/bench_stages $(BUILD)/stages/$$(sha256sum <$(BUILD)/libnhsym.a | cut -c1-12) all); exit $$code
+
+fields: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) benches
+	$(call page,$(BUILD)/tests/bench_fields systems); tail -n 1 docs/$@.md; exit $$code
 
 papers: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all benches

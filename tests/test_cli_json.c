@@ -118,7 +118,7 @@ static void check_no_word(const char *text, const char *word)
 static size_t null_numbers(const cJSON *item)
 {
     static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "components_with_gamma", "symmetry_route",
-                                        "chart_crossing", "nullspace", "series", "latex", "command", "analysis_file", "accuracy",
+                                        "chart_crossing", "nullspace", "gap", "series", "latex", "command", "analysis_file", "accuracy",
                                         "semiholonomic", "branch", "on_both_branches",
                                         "completeness", "in_time", "obstacle", "of", "proved", "missing_at", "equations",
                                         "explicit_motion", "intervals", "fixed", "region", "where", "counted_space", "known",

@@ -559,7 +559,7 @@ Test(cli_manners, definitions_stand_where_they_are_needed)
 {
     place p = place_make();
     finished f = run_expecting(&p, "analyze -v sleigh", 0);
-    const char *current = strstr(f.out, "\n  Phi4 = "), *definition = current ? strstr(current, "\n  R = ") : NULL;
+    const char *current = strstr(f.out, "\n  Phi3 = "), *definition = current ? strstr(current, "\n  R = ") : NULL;
     const char *next = current ? strstr(current, "Certified") : NULL;
     cr_assert(current && definition && next, "%s", f.out);
     cr_expect_lt(definition, next);

@@ -12,7 +12,7 @@
 enum { most_lines = 40, most_columns = 80 };
 
 /* Words that a second-year student of mechanics does not know. */
-static const char *const jargon[] = {"canonical distribution", "projectable", "submanifold", "Phi1", "current", "residual", "[Gamma", "minus the energy", "spectrum"};
+static const char *const jargon[] = {"canonical distribution", "projectable", "submanifold", "\nPhi", "(Phi", "current", "residual", "[Gamma", "minus the energy", "spectrum"};
 
 static void check_screen(const char *line, const char *text)
 {
