@@ -164,3 +164,30 @@ Test(fields, a_word_that_is_no_route_is_told)
     cr_expect(!nh_analysis_file_route("field", &route, &error));
     cr_expect(strstr(error.hint, "fields"), "%s", error.hint);
 }
+
+/* x' is the momentum of a particle that is free for x < 0, and of no use for x > 0: the map of its residual says so point by point. */
+Test(fields, a_map_of_the_residual_shows_where_a_function_is_conserved)
+{
+    char system[SCRATCH], question[SCRATCH];
+    cr_assert(scratch_text(system, "name: ramp\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x + abs(x))*(x*y^2 + y^4 + x^3)\n"));
+    cr_assert(scratch_text(question, "name: map\nsystem: ramp\nfigures: [{residual: [x, y], of: x'}]\n"));
+    nh_error error = {0};
+    nh_request q = {.system_path = system, .analysis_path = question, .documents = true};
+    nh_options_default(&q.options);
+    nh_analysis *r = nh_analysis_create(&q, &error);
+    must(r != NULL, &error, "the map");
+    cr_assert_eq(r->figures, 1);
+    size_t small = 0, large = 0;
+    for (size_t k = 0; k < r->figure[0].curves; k++) {
+        const nh_figure_curve *c = &r->figure[0].curve[k];
+        bool held = !strcmp(c->name, "below 1e-12");
+        for (size_t p = 0; p < c->count; p++) {
+            cr_expect_eq(held, c->x[p] < 0, "%s at x = %g", c->name, c->x[p]);
+            small += held, large += !held;
+        }
+    }
+    cr_expect(small > 500 && large > 500, "%zu, %zu", small, large);
+    nh_analysis_free(r);
+    remove(system);
+    remove(question);
+}

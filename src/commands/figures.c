@@ -5,6 +5,8 @@
 
 #include "base/progress.h"
 #include "commands/simulate.h"
+#include "graph/dag.h"
+#include "graph/diff.h"
 #include "graph/node.h"
 
 enum { outputs = 601, scan_points = 128, scan_values = 401 };
@@ -226,6 +228,86 @@ static void samples(nh_analysis *result, size_t families, const nh_family *famil
             (nh_figure_curve){j ? "smallest value above the gap" : "largest null value", 0, NAN, n, x, y[j], NULL};
 }
 
+/* ---- where the equations hold ---- */
+
+enum { map_points = 2000, bands = 3 };
+static const double band_ends[bands] = {1e-12, 1e-6, INFINITY};
+static const char *const band_names[bands] = {"below 1e-12", "1e-12 to 1e-6", "above 1e-6"};
+
+/* The function that the figure is about, or all currents, with those of a part of the motions. */
+static size_t functions_of(const nh_analysis *result, const nh_figure_request *f, nh_ex *phi)
+{
+    const nh_current_list *list = result->list;
+    size_t n = 0;
+    if (f->of) phi[n++] = f->of;
+    for (size_t k = 0; k < list->count && !f->of; k++) phi[n++] = list->found[k].phi;
+    for (size_t k = 0; k < list->pieces && !f->of; k++) phi[n++] = list->piece[k].phi;
+    return n;
+}
+
+/* At each point the largest |Gamma(Phi)| of n functions, relative to the sum of the terms |q'^s dPhi/dq^s|,
+ * |w'^i dPhi/dw^i|, |dPhi/dt|. */
+static double *residuals(const nh_model *model, const nh_points *points, size_t n, const nh_ex *function)
+{
+    nh_dag *d = model->dag;
+    size_t terms = 1 + model->m + model->n, per = 1 + terms;
+    nh_ex *e = nh_alloc_array(n * per + 1, sizeof *e);
+    for (size_t k = 0; k < n; k++) {
+        nh_ex phi = function[k], *own = e + k * per;
+        own[0] = nh_model_gamma(model, phi);
+        own[1] = nh_diff(d, phi, model->system->t);
+        for (size_t s = 0; s < model->m; s++)
+            own[2 + s] = nh_mul(d, model->rho[s], nh_diff(d, phi, model->system->coordinate[s].q));
+        for (size_t i = 0; i < model->n; i++) own[2 + model->m + i] = nh_mul(d, model->a[i], nh_model_Y(model, i, phi));
+    }
+    double *value = nh_alloc_array(n * per * points->count + 1, sizeof *value),
+           *worst = nh_alloc_array(points->count + 1, sizeof *worst);
+    nh_points_evaluate(points, model, n * per, e, value);
+    for (size_t k = 0; k < n; k++)
+        for (size_t p = 0; p < points->count; p++) {
+            double size = 0, rate = fabs(value[k * per * points->count + p]);
+            for (size_t j = 1; j < per; j++) size += fabs(value[(k * per + j) * points->count + p]);
+            if (isfinite(rate) && isfinite(size) && rate > 0) worst[p] = fmax(worst[p], rate / fmax(size, rate));
+        }
+    nh_free(value);
+    nh_free(e);
+    return worst;
+}
+
+static void residual(nh_analysis *result, nh_figure *figure)
+{
+    const nh_figure_request *f = figure->request;
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    nh_points *points = nh_points_create(result->question->model, map_points, 1,
+                                         (uint64_t)result->question->options.seed + 1, &trouble);
+    nh_ex *phi = nh_arena_alloc(result->arena, (result->list->count + result->list->pieces + 2) * sizeof *phi);
+    size_t n = functions_of(result, f, phi);
+    if (!points || !n) {
+        nh_analysis_warn(result, "figure `%s`: %s", f->title, points ? "there are no currents" : trouble.what);
+        nh_points_free(points);
+        return;
+    }
+    double *worst = residuals(result->question->model, points, n, phi),
+           *at = nh_alloc_array(2 * points->count + 1, sizeof *at);
+    nh_points_evaluate(points, result->question->model, 2, (nh_ex[]){f->quantity[0].value, f->quantity[1].value}, at);
+    figure->curve = nh_arena_alloc(result->arena, bands * sizeof *figure->curve);
+    for (int b = 0; b < bands; b++) {
+        nh_figure_curve c = {band_names[b], 0, NAN, 0, NULL, NULL, NULL};
+        c.x = nh_arena_alloc(result->arena, (points->count + 1) * sizeof *c.x);
+        c.y = nh_arena_alloc(result->arena, (points->count + 1) * sizeof *c.y);
+        for (size_t p = 0; p < points->count; p++) {
+            if (worst[p] >= band_ends[b] || (b && worst[p] < band_ends[b - 1])) continue;
+            c.x[c.count] = at[p];
+            c.y[c.count++] = at[points->count + p];
+        }
+        if (c.count) figure->curve[figure->curves++] = c;
+    }
+    nh_free(at);
+    nh_free(worst);
+    nh_points_free(points);
+}
+
 void nh_figures_compute(nh_analysis *result, const nh_request *q, size_t families, const nh_family *family)
 {
     const nh_analysis_file *a = result->question->analysis;
@@ -237,6 +319,7 @@ void nh_figures_compute(nh_analysis *result, const nh_request *q, size_t familie
         *f = (nh_figure){.request = &a->figure[i]};
         if (f->request->kind == NH_FIGURE_SCAN) scan(result, f);
         else if (f->request->kind == NH_FIGURE_SAMPLES) samples(result, families, family, f);
+        else if (f->request->kind == NH_FIGURE_RESIDUAL) residual(result, f);
         else motions(result, q, i, f);
     }
 }

@@ -106,7 +106,7 @@ void nh_analysis_json_stated(const nh_analysis *result, nh_json *to)
 
 void nh_analysis_json_figures(const nh_analysis *result, nh_json *to)
 {
-    static const char *const kinds[] = {"path", "plot", "scan", "samples"};
+    static const char *const kinds[] = {"path", "plot", "scan", "samples", "residual"};
     nh_json *list = nh_json_put_array(to, "figures");
     for (size_t i = 0; i < result->figures; i++) {
         const nh_figure *f = &result->figure[i];

@@ -133,9 +133,10 @@ static void field(nh_pen *p, const nh_analysis *result, const nh_current *f)
     for (size_t a = 0; a < k && out; a++)
         nh_sheet_formula(sheet, nh_sheet_label(sheet, "i_{[Gamma,Z]} \\form^{%zu}", a + 1), out[a]);
     if (out) forms(p, result, sheet);
-    nh_pen_open(p, NH_PEN_FOLD, NULL, "Its symmetry Z");
+    bool folds = length > short_sum;
+    if (folds) nh_pen_open(p, NH_PEN_FOLD, NULL, "Its symmetry Z");
     nh_pen_sheet(p, sheet);
-    nh_pen_close(p, NH_PEN_FOLD);
+    if (folds) nh_pen_close(p, NH_PEN_FOLD);
 }
 
 static void as_text(nh_pen *p, const nh_analysis *result, const nh_current *f)

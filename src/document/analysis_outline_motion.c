@@ -161,6 +161,26 @@ static void samples(nh_pen *p, const nh_figure *f)
     nh_pen_plot(p, &plot, f->request->title);
 }
 
+static void residual(nh_pen *p, const nh_figure *f)
+{
+    nh_curve *curve = nh_alloc_array(f->curves + 1, sizeof *curve);
+    for (size_t k = 0; k < f->curves; k++) {
+        curve[k] = curve_of(&f->curve[k]);
+        curve[k].dots = true;
+    }
+    nh_plot plot = {.title = f->request->title,
+                    .description = "Sample points of the constraint submanifold, by the largest relative rate of the "
+                                   "functions there",
+                    .x_label = f->request->quantity[0].name,
+                    .y_label = f->request->quantity[1].name,
+                    .curves = f->curves,
+                    .curve = curve};
+    nh_pen_plot(
+        p, &plot,
+        "Sample points, by the largest rate there, relative to its terms: below rounding where it is conserved.");
+    nh_free(curve);
+}
+
 void nh_analysis_write_figures(nh_pen *p, const nh_analysis *result)
 {
     if (!result->figures || p->ink->brief) return;
@@ -172,7 +192,8 @@ void nh_analysis_write_figures(nh_pen *p, const nh_analysis *result)
         if (f->request->kind == NH_FIGURE_PATH) paths(p, f);
         else if (f->request->kind == NH_FIGURE_PLOT) over_time(p, f);
         else if (f->request->kind == NH_FIGURE_SCAN) scan(p, result, f);
-        else samples(p, f);
+        else if (f->request->kind == NH_FIGURE_SAMPLES) samples(p, f);
+        else residual(p, f);
     }
 }
 

@@ -409,25 +409,28 @@ static void decide(nh_model *model, const nh_points *points, nh_symmetry *z, con
     nh_free(e);
 }
 
-/* The largest residual of the constraint Noether equations, relative to the largest of their terms.  For an integral of
- * the constraints all terms may vanish: there is nothing to compare rounding with, and the normal form decides. */
+/* The largest residual of the constraint Noether equations, relative to the largest of their terms as they are written.
+ * Where all terms vanish there is nothing to compare rounding with, and the normal form decides. */
 double nh_symmetry_residual(const nh_model *model, const nh_points *points, nh_ex phi, nh_ex Z0, const nh_ex *zeta,
                             const nh_ex *W, double kind[3])
 {
     static const double suspicious = 1e-9;
-    size_t n = 1 + 2 * model->n, count = points->count;
-    nh_ex *e = nh_alloc_array(2 * n, sizeof *e);
+    nh_dag *d = model->dag;
+    size_t n = 1 + 2 * model->n, all = n, count = points->count;
+    nh_ex *e = nh_alloc_array(n + (model->m + 1) * (model->n + 1) + model->n, sizeof *e);
     equations_of(model, phi, Z0, zeta, W, e);
-    e[n] = nh_model_X0(model, phi);
-    for (size_t j = 0; j < model->n; j++) {
-        e[n + 1 + j] = nh_model_X(model, j, phi);
-        e[n + 1 + model->n + j] = nh_model_Y(model, j, phi);
+    for (size_t j = 0; j < model->n; j++) e[all++] = nh_model_Y(model, j, phi);
+    e[all++] = nh_diff(d, phi, model->system->t);
+    for (size_t s = 0; s < model->m; s++) { /* the terms of X_0(Phi) and X_j(Phi), which may cancel */
+        nh_ex slope = nh_diff(d, phi, model->system->coordinate[s].q);
+        e[all++] = nh_mul(d, model->rho[s], slope);
+        for (size_t j = 0; j < model->n; j++) e[all++] = nh_mul(d, model->R[s * model->n + j], slope);
     }
-    double *value = nh_alloc_array(2 * n * count + n, sizeof *value), *off = value + 2 * n * count, worst = 0;
-    nh_points_evaluate(points, model, 2 * n, e, value);
+    double *value = nh_alloc_array(all * count + n, sizeof *value), *off = value + all * count, worst = 0;
+    nh_points_evaluate(points, model, all, e, value);
     for (size_t p = 0; p < count; p++) {
         double scale = 0;
-        for (size_t i = n; i < 2 * n; i++) scale = fmax(scale, fabs(value[i * count + p]));
+        for (size_t i = n; i < all; i++) scale = fmax(scale, fabs(value[i * count + p]));
         for (size_t i = 0; i < n; i++) {
             double r = fabs(value[i * count + p]) / fmax(scale, 1e-300);
             if (isfinite(r)) off[i] = fmax(off[i], r);

@@ -9,15 +9,16 @@
 typedef enum { NH_ROUTE_BOTH, NH_ROUTE_FIELDS, NH_ROUTE_CURRENTS, NH_ROUTES } nh_route;
 
 /* A figure of the file. */
-typedef enum { NH_FIGURE_PATH, NH_FIGURE_PLOT, NH_FIGURE_SCAN, NH_FIGURE_SAMPLES } nh_figure_kind;
+typedef enum { NH_FIGURE_PATH, NH_FIGURE_PLOT, NH_FIGURE_SCAN, NH_FIGURE_SAMPLES, NH_FIGURE_RESIDUAL } nh_figure_kind;
 typedef struct {
     nh_figure_kind kind;
     const char *title;
     size_t quantities;
-    nh_named *quantity; /* path: x, y and perhaps a heading; plot: each over time */
+    nh_named *quantity; /* path: x, y and perhaps a heading; plot: each over time; residual: the two axes */
     size_t values;      /* 0: one motion with the values of the analysis */
     const char *vary;   /* a parameter, */
     double *value;      /* its values, a motion each; samples: how many, a linear problem each */
+    nh_ex of;           /* residual: of this function; 0: of the currents found */
     bool has_time;
     /* the motion begins at the t of the initial state, whether that lies within these times or not */
     double begin, end;

@@ -6,14 +6,16 @@
 
 typedef nh_analysis_file_reader reader;
 
-/* path: [x, y] or [x, y, heading] */
-static bool read_path(reader *r, const nh_deck_node *list, nh_figure_request *f)
+/* path: [x, y] or [x, y, heading]; residual: [x, y] */
+static bool read_path(reader *r, const nh_deck_node *list, size_t most, nh_figure_request *f)
 {
     static const char *const names[] = {"x", "y", "heading"};
     const nh_deck *deck = r->a->deck;
-    if (!nh_deck_is(deck, list, NH_DECK_LIST, "a path [x, y] or [x, y, heading]", r->error)) return false;
-    if (list->count != 2 && list->count != 3)
-        return nh_deck_fail(deck, list, 0, r->error, "a path is given by 2 or 3 expressions, found %zu", list->count);
+    const char *expected = most == 2 ? "two axes [x, y]" : "a path [x, y] or [x, y, heading]";
+    if (!nh_deck_is(deck, list, NH_DECK_LIST, expected, r->error)) return false;
+    if (list->count < 2 || list->count > most)
+        return nh_deck_fail(deck, list, 0, r->error, "expected %s, found %zu expression%s", expected, list->count,
+                            list->count == 1 ? "" : "s");
     f->quantity = nh_analysis_file_take(r, list->count, sizeof *f->quantity);
     for (size_t i = 0; i < list->count; i++) {
         if (!nh_analysis_file_parse(r, list->item[i], &f->quantity[i].value)) return false;
@@ -83,29 +85,39 @@ static bool read_vary(reader *r, const nh_deck_node *map, nh_figure_request *f)
 
 static bool read_figure(reader *r, const nh_deck_node *node, nh_figure_request *f)
 {
-    static const char *const keys[] = {"title", "path", "plot", "scan", "samples", "vary", "time"};
+    static const char *const keys[] = {"title", "path", "plot", "scan", "samples", "residual", "of", "vary", "time"};
     const nh_deck *deck = r->a->deck;
     if (!nh_deck_is(deck, node, NH_DECK_MAP,
-                    "a figure {path: [x, y]}, {plot: [name = expression]}, {scan: unknown} or {samples: [numbers]}",
+                    "a figure {path: [x, y]}, {plot: [name = expression]}, {scan: unknown}, {samples: [numbers]} or "
+                    "{residual: [x, y]}",
                     r->error))
         return false;
     if (!nh_deck_only(deck, node, keys, sizeof keys / sizeof *keys, r->error)) return false;
     const nh_deck_node *title = nh_deck_get(node, "title"), *path = nh_deck_get(node, "path"),
                        *plot = nh_deck_get(node, "plot"), *scan = nh_deck_get(node, "scan"),
-                       *samples = nh_deck_get(node, "samples"), *time = nh_deck_get(node, "time");
-    if (!path + !plot + !scan + !samples != 3) {
-        nh_deck_fail(deck, node, 0, r->error, "a figure has one of `path`, `plot`, `scan` and `samples`");
-        return nh_error_hint(r->error,
-                             "path: [x, y, heading], plot: [name = expression, ...], scan: nu or samples: [50, 100]");
+                       *samples = nh_deck_get(node, "samples"), *residual = nh_deck_get(node, "residual"),
+                       *of = nh_deck_get(node, "of"), *time = nh_deck_get(node, "time");
+    if (!path + !plot + !scan + !samples + !residual != 4) {
+        nh_deck_fail(deck, node, 0, r->error, "a figure has one of `path`, `plot`, `scan`, `samples` and `residual`");
+        return nh_error_hint(r->error, "path: [x, y, heading], plot: [name = expression, ...], scan: nu, "
+                                       "samples: [50, 100] or residual: [x, y]");
     }
     if (title && !nh_deck_is(deck, title, NH_DECK_SCALAR, "a title", r->error)) return false;
-    f->kind = path ? NH_FIGURE_PATH : plot ? NH_FIGURE_PLOT : scan ? NH_FIGURE_SCAN : NH_FIGURE_SAMPLES;
-    f->title = title  ? title->text
-               : path ? "Path"
-               : plot ? "Over time"
-               : scan ? "Scan"
-                      : "Singular values, by the number of samples";
-    if (path && !read_path(r, path, f)) return false;
+    f->kind = path      ? NH_FIGURE_PATH
+              : plot    ? NH_FIGURE_PLOT
+              : scan    ? NH_FIGURE_SCAN
+              : samples ? NH_FIGURE_SAMPLES
+                        : NH_FIGURE_RESIDUAL;
+    f->title = title     ? title->text
+               : path    ? "Path"
+               : plot    ? "Over time"
+               : scan    ? "Scan"
+               : samples ? "Singular values, by the number of samples"
+                         : "Where the equations hold";
+    if (path && !read_path(r, path, 3, f)) return false;
+    if (residual && !read_path(r, residual, 2, f)) return false;
+    if (of && !residual) return nh_deck_fail(deck, of, 0, r->error, "`of` belongs to `residual`");
+    if (of && !nh_analysis_file_parse(r, of, &f->of)) return false;
     if (plot && !nh_analysis_file_watches(r, plot, "plot", &f->quantity, &f->quantities)) return false;
     if (scan && !read_scan(r, scan, f)) return false;
     if (samples && !read_samples(r, samples, f)) return false;
@@ -115,9 +127,12 @@ static bool read_figure(reader *r, const nh_deck_node *node, nh_figure_request *
     f->begin = range[0];
     f->end = range[1];
     const nh_deck_node *vary = nh_deck_get(node, "vary");
-    if ((scan || samples) && (vary || time))
+    if ((scan || samples || residual) && (vary || time))
         return nh_deck_fail(deck, vary ? vary : time, 0, r->error,
-                            "`scan` and `samples` do not use a motion: remove `vary` and `time`");
+                            "`%s` does not use a motion: remove `vary` and `time`",
+                            scan      ? "scan"
+                            : samples ? "samples"
+                                      : "residual");
     return read_vary(r, vary, f);
 }
 
