@@ -119,7 +119,7 @@ char *nh_verification_json(const nh_verification *v, const nh_run *run)
     } else {
         nh_json_put_null(root, "counterexample");
     }
-    nh_geometry_json(v->arena, v->theory, NULL, root);
+    nh_geometry_json(v->arena, v->theory, NULL, root, "equations");
     if (run) nh_run_json(run, v->system, root);
     return nh_json_finish(root);
 }
