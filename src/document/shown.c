@@ -106,7 +106,11 @@ void nh_shown_write(const nh_shown *s, const nh_run *run, nh_pen_style style, nh
     p->ink->links(p->to, "system|System|overview|Overview|geometry|Geometry|repeat|Repeat it");
     nh_pen_system(p, s->model, NULL);
     nh_pen_section(p, "overview", "Overview");
-    if (p->ink->brief) constraints(p, s);
+    if (p->ink->brief) {
+        constraints(p, s);
+        nh_pen_heading(p, "Lagrangian, in all velocities");
+        nh_pen_formula(p, "L", s->system->lagrangian);
+    }
     nh_pen_sheet(p, nh_geometry_overview(s->arena, s->own));
     if (s->other) {
         nh_pen_section(p, "quasi", "Geometry in quasi-velocities");
