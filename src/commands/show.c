@@ -28,10 +28,16 @@ nh_shown *nh_shown_create(const nh_request *q, nh_error *error)
     }
     nh_arena *arena = nh_arena_create();
     nh_shown *s = nh_arena_alloc(arena, sizeof *s);
-    *s = (nh_shown){.arena = arena, .system = system, .model = model, .other = nh_shown_other(model, &q->options)};
-    s->own = s->theory = nh_theory_of(arena, model, NULL, 0, &q->options);
-    if (s->other) s->theory = nh_theory_of(arena, model, s->other, 0, &q->options);
+    *s = (nh_shown){.arena = arena, .system = system, .model = model, .options = q->options};
     return s;
+}
+
+void nh_shown_complete(nh_shown *s)
+{
+    if (s->own) return;
+    s->other = nh_shown_other(s->model, &s->options);
+    s->own = s->theory = nh_theory_of(s->arena, s->model, NULL, 0, &s->options);
+    if (s->other) s->theory = nh_theory_of(s->arena, s->model, s->other, 0, &s->options);
 }
 
 void nh_shown_free(nh_shown *s)

@@ -11,11 +11,15 @@ typedef struct {
     nh_arena *arena;
     nh_system *system;
     nh_model *model, *other; /* in the chart that was chosen; in coordinate velocities beside quasi ones, or NULL */
-    nh_theory *own, *theory; /* in that chart; in coordinate velocities (perhaps the same) */
+    nh_options options;
+    nh_theory *own,
+        *theory; /* in that chart; in coordinate velocities (perhaps the same); NULL before nh_shown_complete */
 } nh_shown;
 
 /* NULL with a message; nh_shown_free. */
 nh_shown *nh_shown_create(const nh_request *request, nh_error *error);
+/* Derives `own` and `theory`, which a first screen does not need: of a long Lagrangian they take long. */
+void nh_shown_complete(nh_shown *shown);
 void nh_shown_free(nh_shown *shown);
 
 /* The model in coordinate velocities, for one in quasi-velocities of a system with constraints; else NULL. */

@@ -445,12 +445,12 @@ static void overview_equations(const builder *b)
         nh_sheet_formula(b->s, model->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1), model->mu[a]);
 }
 
-nh_sheet *nh_geometry_overview(nh_arena *arena, const nh_theory *t)
+nh_sheet *nh_geometry_overview(nh_arena *arena, const nh_model *model, const nh_options *options)
 {
-    builder b = {nh_sheet_create(arena, t->own->model->dag), t, t->own->model, t->own->model->dag};
-    b.s->chart = b.o->chart->roots ? b.o->chart : NULL;
-    b.s->shown = t->shown;
-    b.s->written = t->written;
+    builder b = {nh_sheet_create(arena, model->dag), NULL, model, model->dag};
+    b.s->chart = model->chart->roots ? model->chart : NULL;
+    b.s->shown = options->shown;
+    b.s->written = options->written;
     overview_velocities(&b);
     overview_lagrangian(&b);
     nh_sheet_begin(b.s, "fields", "Fields, and their brackets that do not vanish", "");

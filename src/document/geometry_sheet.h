@@ -13,7 +13,7 @@ void nh_symmetry_sheet(nh_sheet *sheet, const nh_theory *theory);
 void nh_geometry_json(nh_arena *arena, const nh_theory *theory, const nh_analysis_file *analysis, nh_json *to,
                       const char *key);
 
-/* What a reader looks for first, in the chart of the theory's model: sections in this order, some without lines. */
+/* What a reader looks for first, in the chart of the model: sections in this order, some without lines. */
 enum {
     NH_OVERVIEW_VELOCITIES,
     NH_OVERVIEW_LAGRANGIAN,
@@ -23,6 +23,6 @@ enum {
     NH_OVERVIEW_EQUATIONS,
     NH_OVERVIEW_MULTIPLIERS
 };
-nh_sheet *nh_geometry_overview(nh_arena *arena, const nh_theory *theory);
+nh_sheet *nh_geometry_overview(nh_arena *arena, const nh_model *model, const nh_options *options);
 
 #endif

@@ -7,6 +7,7 @@
 #include "document/geometry_sheet.h"
 #include "document/provenance.h"
 #include "document/screen.h"
+#include "graph/measure.h"
 #include "graph/node.h"
 
 static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
@@ -40,24 +41,37 @@ static nh_pen_subject subject(const nh_shown *s, const nh_run *run)
         .system = s->system, .dag = s->model->dag, .chart = s->model->chart, .shown = run ? run->shown : 0};
 }
 
+static nh_sheet *overview(const nh_shown *s) { return nh_geometry_overview(s->arena, s->model, &s->options); }
+
 /* ---- the first screen ---- */
 
 /* With these sections of the sheet: bit i is section i. */
-static void put_screen(const nh_shown *s, const nh_run *run, nh_pen_style style, unsigned sections, bool system,
-                       nh_text *out)
+static void put_screen(const nh_shown *s, const nh_run *run, nh_pen_style style, const nh_sheet *all, unsigned sections,
+                       bool system, nh_text *out)
 {
     nh_pen pen, *p = &pen;
     nh_pen_subject of = subject(s, run);
+    nh_sheet some = *all;
+    some.section = nh_arena_alloc(s->arena, (all->sections + 1) * sizeof *some.section);
+    some.sections = 0;
+    for (size_t i = 0; i < all->sections; i++)
+        if (sections >> i & 1) some.section[some.sections++] = all->section[i];
     nh_pen_begin(p, style, &of, "geometry", out);
     answer(p, s);
     if (system) constraints(p, s);
-    nh_sheet *all = nh_geometry_overview(s->arena, s->own);
-    size_t kept = 0;
-    for (size_t i = 0; i < all->sections; i++)
-        if (sections >> i & 1) all->section[kept++] = all->section[i];
-    all->sections = kept;
-    nh_pen_sheet(p, all);
+    nh_pen_sheet(p, &some);
     nh_pen_end(p, NULL);
+}
+
+/* Formulas that are longer than a screen need not be written to see that. */
+static bool may_fit(const nh_sheet *s, const nh_sheet_section *c)
+{
+    enum { most = 80 * NH_SCREEN_LINES };
+    double length = 0;
+    for (size_t i = 0; i < c->lines; i++)
+        for (size_t j = 0; j < c->line[i].left + c->line[i].right; j++)
+            length += (double)nh_complexity(s->dag, c->line[i].term[j].coefficient);
+    return length <= most;
 }
 
 /* The sections that fit, the more important ones first; the others are named. */
@@ -68,42 +82,47 @@ static void first_screen(const nh_shown *s, const nh_run *run, nh_pen_style styl
                                      NH_OVERVIEW_MULTIPLIERS};
     enum { tail = 4 };
     unsigned sections = 0;
-    nh_sheet *all = nh_geometry_overview(s->arena, s->own);
+    nh_sheet *all = overview(s);
     nh_text left, text;
     bool system = true;
     nh_text_init(&left);
     nh_text_init(&text);
     for (size_t i = 0; i <= sizeof order / sizeof *order; i++) {
-        unsigned one = i ? 1u << order[i - 1] : 0;
-        if (i && !all->section[order[i - 1]].lines) continue;
-        put_screen(s, run, style, sections | one, system, &text);
-        bool fits = nh_screen_count(nh_text_string(&text)) + tail <= NH_SCREEN_LINES;
-        if (fits) sections |= one;
-        else
-            nh_text_addf(&left, "%s%s", left.length ? ", " : "Too long for this screen: ",
-                         i ? all->section[order[i - 1]].title : "Constraints");
-        if (!i) system = fits;
+        const nh_sheet_section *c = i ? &all->section[order[i - 1]] : NULL;
+        bool fits = !c || may_fit(all, c);
+        if (c && !c->lines) continue;
+        if (fits) put_screen(s, run, style, all, sections | (c ? 1u << order[i - 1] : 0), system, &text);
+        fits = fits && nh_screen_count(nh_text_string(&text)) + tail <= NH_SCREEN_LINES;
+        if (!fits)
+            nh_text_addf(&left, "%s%s",
+                         left.length ? ", " : "Too long for this screen: ", c ? c->title : "Constraints");
+        else if (c) sections |= 1u << order[i - 1];
+        if (!c) system = fits;
         nh_text_clear(&text);
     }
-    put_screen(s, run, style, sections, system, out);
+    put_screen(s, run, style, all, sections, system, out);
     if (left.length) nh_text_add(out, "\n"), nh_text_add(&left, "."), nh_screen_say(out, 0, &left);
     nh_screen_more(out, "forms, Euler expressions, equations of symmetries, multipliers",
-                   s->other ? "--velocities coordinates   the same in them" : NULL);
+                   s->model->chart->quasi && s->model->k ? "--velocities coordinates   the same in them" : NULL);
 }
 
 /* ---- the whole ---- */
 
-void nh_shown_write(const nh_shown *s, const nh_run *run, nh_pen_style style, nh_text *out)
+void nh_shown_write(nh_shown *s, const nh_run *run, nh_pen_style style, nh_text *out)
 {
     if (nh_screen_is_wanted(style)) {
         first_screen(s, run, style, out);
         return;
     }
+    nh_shown_complete(s);
     nh_pen pen, *p = &pen;
     nh_pen_subject of = subject(s, run);
     nh_pen_begin(p, style, &of, "geometry", out);
     answer(p, s);
-    p->ink->links(p->to, "system|System|overview|Overview|geometry|Geometry|repeat|Repeat it");
+    p->ink->links(p->to, s->other
+                             ? "system|System|overview|Overview|quasi|Quasi-velocities|geometry|Geometry|words|Words|"
+                               "repeat|Repeat it"
+                             : "system|System|overview|Overview|geometry|Geometry|words|Words|repeat|Repeat it");
     nh_pen_system(p, s->model, NULL);
     nh_pen_section(p, "overview", "Overview");
     if (p->ink->brief) {
@@ -111,7 +130,7 @@ void nh_shown_write(const nh_shown *s, const nh_run *run, nh_pen_style style, nh
         nh_pen_heading(p, "Lagrangian, in all velocities");
         nh_pen_formula(p, "L", s->system->lagrangian);
     }
-    nh_pen_sheet(p, nh_geometry_overview(s->arena, s->own));
+    nh_pen_sheet(p, overview(s));
     if (s->other) {
         nh_pen_section(p, "quasi", "Geometry in quasi-velocities");
         nh_pen_words(p, "In {%s}.", s->model->chart->name);
@@ -124,9 +143,10 @@ void nh_shown_write(const nh_shown *s, const nh_run *run, nh_pen_style style, nh
 
 /* ---- JSON ---- */
 
-char *nh_shown_json(const nh_shown *s, const nh_run *run)
+char *nh_shown_json(nh_shown *s, const nh_run *run)
 {
     const nh_model *model = s->model;
+    nh_shown_complete(s);
     nh_json *root = nh_json_object(), *list;
     nh_json_put_number(root, "schema", 1);
     nh_json_put_text(root, "version", NH_VERSION);
@@ -137,7 +157,7 @@ char *nh_shown_json(const nh_shown *s, const nh_run *run)
     for (size_t i = 0; i < s->system->constraints; i++) nh_json_add_text(list, s->system->constraint[i].text);
     list = nh_json_put_array(root, "velocities");
     for (size_t l = 0; l < model->n; l++) nh_json_add_text(list, nh_name_of(model->dag, model->chart->w[l]));
-    nh_sheet_json(nh_geometry_overview(s->arena, s->own), nh_json_put_object(root, "overview"));
+    nh_sheet_json(overview(s), nh_json_put_object(root, "overview"));
     if (s->other) nh_geometry_json(s->arena, s->own, NULL, root, "in_quasi_velocities");
     else nh_json_put_null(root, "in_quasi_velocities");
     nh_geometry_json(s->arena, s->theory, NULL, root, "equations");

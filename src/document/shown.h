@@ -6,8 +6,9 @@
 #include "commands/show.h"
 #include "document/pen.h"
 
-void nh_shown_write(const nh_shown *shown, const nh_run *run, nh_pen_style style, nh_text *out);
+/* Both complete the geometry where they show it. */
+void nh_shown_write(nh_shown *shown, const nh_run *run, nh_pen_style style, nh_text *out);
 /* A heap string (nh_free) that ends in a newline; `run` may be NULL. */
-char *nh_shown_json(const nh_shown *shown, const nh_run *run);
+char *nh_shown_json(nh_shown *shown, const nh_run *run);
 
 #endif
