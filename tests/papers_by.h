@@ -260,24 +260,22 @@ static void set(document *d, size_t p, const char *name, double value)
         if (d->symbol[i] == e) d->value[p][i] = value;
 }
 
-/* Along (33): phi = k asin tanh tau, v = x'/cos phi = a k omega_0 tanh tau, tau = omega_0 t/k; where = 33: in Gamma; 37, 38: the energies. */
-static double motion(const document *from, int where)
+/* Gamma along (33): phi = k asin tanh tau, v = x'/cos phi = a k omega_0 tanh tau, tau = omega_0 t/k. */
+static double motion(const document *from)
 {
     static document d;
-    double m = parameter_of(from, "m"), a = parameter_of(from, "a"), k = parameter_of(from, "k"), w0 = 1.3, got[2][points], want[2][points];
-    double E0 = m * a * a * k * k * w0 * w0 / 2;
+    double a = parameter_of(from, "a"), k = parameter_of(from, "k"), w0 = 1.3, got[2][points], want[2][points];
     d = *from;
     for (size_t p = 0; p < points; p++) {
         double tau = 0.05 + 0.06 * (double)p, ch = cosh(tau), phi = k * asin(tanh(tau)), w = w0 / ch, v = a * k * w0 * tanh(tau);
         set(&d, p, "phi", phi);
         set(&d, p, "phi'", w);
         set(&d, p, "x'", v * cos(phi));
-        want[0][p] = where == 33 ? -w0 * w0 / k * sinh(tau) / (ch * ch) : where == 37 ? E0 * tanh(tau) * tanh(tau) : E0 * (tanh(tau) * tanh(tau) + 1 / (k * k * ch * ch));
-        want[1][p] = where == 33 ? a * w0 * w0 * cos(phi) / (ch * ch) - v * sin(phi) * w : where == 37 ? E0 / (ch * ch) : E0 / (ch * ch) * (1 - 1 / (k * k));
+        want[0][p] = -w0 * w0 / k * sinh(tau) / (ch * ch);
+        want[1][p] = a * w0 * w0 * cos(phi) / (ch * ch) - v * sin(phi) * w;
     }
-    if (where == 33) evaluate(&d, coefficient(&d, "semispray", "Gamma", "d/dphi'"), got[0]), evaluate(&d, coefficient(&d, "semispray", "Gamma", "d/dx'"), got[1]);
-    if (where == 37) values(&d, E_T, got[0]), values(&d, "m/2*a^2*k^2*phi'^2", got[1]);
-    if (where == 38) values(&d, "m/2*((x' - a*phi'*sin(phi))^2 + (x'*tan(phi) + a*phi'*cos(phi))^2)", got[0]), values(&d, "m/2*a^2*(k^2 - 1)*phi'^2", got[1]);
+    evaluate(&d, coefficient(&d, "semispray", "Gamma", "d/dphi'"), got[0]);
+    evaluate(&d, coefficient(&d, "semispray", "Gamma", "d/dx'"), got[1]);
     return fmax(apart(got[0], want[0]), apart(got[1], want[1]));
 }
 
@@ -506,6 +504,43 @@ static double crane_hamiltonian(const document *d)
     return differ(d, nh_mul(g, nh_int(g, 2), H), twice);
 }
 
+/* x' = dH/dp and p' = -dH/dx + Upsilon x', with the printed H, Upsilon and rates, at p = Khat x'. */
+static double crane_equations(const document *d)
+{
+    static const char *const q[4] = {"psi1", "phi1", "psi2", "phi2"};
+    nh_dag *g = d->system->dag;
+    nh_ex p[4], v[4], c[4][4];
+    double worst = 0;
+    char label[60];
+    for (size_t i = 0; i < 4; i++) {
+        p[i] = nh_int(g, 0);
+        for (size_t j = 0; j < 4; j++) {
+            snprintf(label, sizeof label, "%s'", q[j]);
+            v[j] = parsed(d, label);
+            snprintf(label, sizeof label, "Khat_%s,%s", q[i < j ? i : j], q[i < j ? j : i]);
+            p[i] = nh_add(g, p[i], nh_mul(g, coefficient(d, "1.hamiltonian", label, ""), v[j]));
+            snprintf(label, sizeof label, i == j ? "p_%s^2" : "p_%s p_%s", q[i < j ? i : j], q[i < j ? j : i]);
+            c[i][j] = coefficient(d, "1.hamiltonian", "Hhat", label);
+        }
+    }
+    for (size_t i = 0; i < 4; i++) {
+        nh_ex slope = nh_int(g, 0), force = nh_int(g, 0);
+        for (size_t j = 0; j < 4; j++) {
+            slope = nh_add(g, slope, nh_mul(g, nh_mul(g, nh_int(g, i == j ? 2 : 1), c[i][j]), p[j]));
+            for (size_t k = j; k < 4; k++)
+                force = nh_sub(g, force, nh_mul(g, nh_diff(g, c[j][k], parsed(d, q[i])), nh_mul(g, p[j], p[k])));
+        }
+        for (size_t k = 0; k < 4 && i % 2 == 0; k++) { /* Upsilon_psi1,psi2: psi1 is 0, psi2 is 2 */
+            nh_ex part = nh_mul(g, coefficient(d, "1.gyroscopic_form", "Upsilon_psi1,psi2", nh_name_of(g, v[k])), nh_mul(g, v[k], v[2 - i]));
+            force = i == 0 ? nh_add(g, force, part) : nh_sub(g, force, part);
+        }
+        snprintf(label, sizeof label, "p_%s'", q[i]);
+        nh_ex size = nh_mul(g, p[0], v[0]), rate = coefficient(d, "1.stage", label, "");
+        worst = fmax(worst, fmax(differ(d, slope, v[i]), differ(d, nh_add(g, force, size), nh_add(g, rate, size))));
+    }
+    return worst;
+}
+
 static double upsilon(const document *d)
 {
     static const char *const q[4] = {"psi1'", "phi1'", "psi2'", "phi2'"};
@@ -576,6 +611,39 @@ static double crane_metric(const document *from)
                 worst = fmax(worst, fabs(got[p] + K[i * 8 + j]) / (1 + fabs(K[i * 8 + j])));
             }
         }
+    cJSON_Delete(data);
+    return worst;
+}
+
+/* The printed momenta on the constraint submanifold, against K q' with independent values of K, and q' by the normal form. */
+static double legendre(const document *from)
+{
+    cJSON *data = reference("crane_oracle.json");
+    const cJSON *one = cJSON_GetArrayItem(cJSON_GetObjectItem(data, "sets"), 0), *names = cJSON_GetObjectItem(data, "joint_coordinates");
+    static document d;
+    d = *from;
+    double worst = 0, q[8], K[64], got[points], v[8][points];
+    char label[60];
+    for (size_t p = 0; p < points; p++) {
+        flat(cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(one, "points"), (int)p), "q_full"), q);
+        for (size_t k = 0; k < 8; k++) set(&d, p, cJSON_GetArrayItem(names, (int)k)->valuestring, q[k]);
+    }
+    for (size_t k = 0; k < 8; k++) {
+        snprintf(label, sizeof label, "%s'", cJSON_GetArrayItem(names, (int)k)->valuestring);
+        evaluate(&d, line_of(&d, "normal_form", label) ? coefficient(&d, "normal_form", label, "") : parsed(&d, label), v[k]);
+    }
+    for (size_t i = 0; i < 8; i++) {
+        double want[points];
+        snprintf(label, sizeof label, "p_%s", cJSON_GetArrayItem(names, (int)i)->valuestring);
+        if (!line_of(&d, "lagrangian", label)) stop("no momentum", label);
+        evaluate(&d, coefficient(&d, "lagrangian", label, ""), got);
+        for (size_t p = 0; p < points; p++) {
+            flat(cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(one, "points"), (int)p), "K_full"), K);
+            want[p] = 0;
+            for (size_t k = 0; k < 8; k++) want[p] += K[i * 8 + k] * v[k][p];
+        }
+        worst = fmax(worst, apart(got, want));
+    }
     cJSON_Delete(data);
     return worst;
 }
@@ -727,9 +795,11 @@ static void by(const row *r, const document *d, double *printed, double *meant)
     else if (!strcmp(what, "27")) *printed = equation_27(d, true), *meant = equation_27(d, false);
     else if (!strcmp(what, "32")) equation_32(d, printed, meant);
     else if (!strcmp(what, "34")) *printed = equation_34(d);
-    else if (!strcmp(what, "33") || !strcmp(what, "37") || !strcmp(what, "38")) *printed = motion(d, atoi(what));
+    else if (!strcmp(what, "33")) *printed = motion(d);
     else if (!strcmp(what, "crane metric")) *printed = crane_metric(d);
     else if (!strcmp(what, "crane hamiltonian")) *printed = crane_hamiltonian(d);
+    else if (!strcmp(what, "crane equations")) *printed = crane_equations(d);
+    else if (!strcmp(what, "legendre")) *printed = legendre(d);
     else if (!strcmp(what, "upsilon")) *printed = upsilon(d);
     else if (!strcmp(what, "other upsilon")) *printed = other_upsilon(d);
     else if (!strcmp(what, "basic")) *printed = basic(d);

@@ -158,7 +158,8 @@ static bool yes(const char *words, bool *proved, char *answer, size_t size)
     const char *at = strstr(flat, " Yes"), *no = strstr(flat, " No");
     bool good = at && (!no || at < no);
     const char *from = good ? at + 1 : no ? no + 1 : "";
-    snprintf(answer, size, "%.*s", (int)strcspn(from, ".:,"), from);
+    size_t first = strcspn(from, "."), more = strlen(from) > first ? strcspn(from + first + 1, ".") : 0; /* "Yes. This is conserved" */
+    snprintf(answer, size, "%.*s", (int)(first < 4 ? first + 1 + more : first), from);
     *proved = good && strstr(at, "proved");
     free(flat);
     free(text);
@@ -190,7 +191,7 @@ static void claim(const row *r, finding *f)
     char answer[200], other[200];
     bool proved, again = false, good = yes(asked(r, r->printed), &proved, answer, sizeof answer);
     bool corrected = !good && r->meant && yes(asked(r, r->meant), &again, other, sizeof other);
-    snprintf(f->value, sizeof f->value, "`%s`", answer);
+    show(f, answer);
     f->good = good || corrected;
     f->misprint = corrected;
     if (r->kind == REFUTED && good) f->misprint = true, snprintf(f->finding, sizeof f->finding, "**misprint**: the statement is refuted%s", proved ? ", proved" : "");
