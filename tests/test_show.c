@@ -118,10 +118,14 @@ Test(show, the_field_of_a_product_follows_from_those_of_its_factors)
 Test(show, currents_have_the_names_of_the_file_or_of_analyze)
 {
     place p = place_with_systems();
-    const char *const yes[] = {"Yes. This is conserved", NULL};
+    const char *const yes[] = {"Yes. This is conserved", "\n  Phi = ", NULL};
     shows(&p, "verify sleigh --current Phi_3", yes);             /* of the file */
     shows(&p, "verify sleigh --current Phi_1*Phi_2+E", yes); /* Phi_1: of analyze */
     shows(&p, "verify kepler --current Phi_1", yes);
+    shows(&p, "verify sleigh --current -E", (const char *const[]){"\n  Phi = -m*(a^2*k^2*omega^2 + v^2)/2\n", NULL});
+    finished g = ask(&p, "verify sleigh --current 2*pi", 0);
+    cr_expect_null(strstr(g.out, "Phi = "), "what was typed is not repeated: %s", g.out);
+    finished_clear(&g);
     finished f = ask(&p, "verify sleigh --current Phi_77", 2);
     check_contains(f.err, "`analyze` finds no current `Phi_77`");
     finished_clear(&f);

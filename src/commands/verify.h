@@ -18,6 +18,7 @@ struct nh_verification {
     nh_model *model;
     /* in the chart; for a field: its current alpha(Z), if it lies in the canonical distribution */
     nh_ex current;
+    bool named;   /* it was asked for by a name of verify_names.c: the formula is an answer, too */
     nh_ex *form;  /* for a field: i_Z phi^a, one for each constraint; else NULL */
     bool outside; /* for a field: these do not vanish, so Z is not in the canonical distribution */
     /* for a field: the question is whether it is a symmetry of the equations of motion, [Gamma,Z] = f Gamma, and not a

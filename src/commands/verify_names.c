@@ -5,6 +5,7 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "commands/analyze.h"
 #include "exact/normal.h"
 #include "graph/node.h"
@@ -66,6 +67,7 @@ static bool found_by_analysis(names *x, const char *word, nh_ex *out, nh_error *
         q.command = "analyze";
         if (name && !q.ons && !nh_places_is_path(name)) q.analysis_path = nh_places_look(q.arena, "analyses", name);
         if (!(x->own = nh_analysis_create(&q, error))) return false;
+        if (nh_interrupted()) return nh_fail_ended(error, "while `analyze` looked for %s", word);
     }
     const nh_current_list *list = x->own->list;
     const nh_current *c = NULL;
@@ -127,6 +129,7 @@ bool nh_verification_read(nh_verification *v, const char *option, const char *ty
     names x = {.v = v, .option = option};
     bool good = learn(&x, typed, begin, length, error) && parse(&x, typed, begin, length, out, error);
     nh_analysis_free(x.own);
+    v->named = v->named || x.count;
     return good;
 }
 
@@ -164,7 +167,7 @@ static size_t closing(const char *text, size_t open, size_t end)
 /* In `text` each Z(..) becomes a name of the same length, so that places in messages remain right. */
 static bool take_fields(names *x, const char *typed, char *text, named_field *f, size_t *count, nh_error *error)
 {
-    size_t end = strlen(typed);
+    size_t end = is_of_system(x, "Z(t)") ? 0 : strlen(typed);
     nh_dag *d = x->v->model->dag;
     for (size_t i = 0; i < end; i++) {
         bool first = !i || !(isalnum((unsigned char)typed[i - 1]) || typed[i - 1] == '_');

@@ -314,6 +314,7 @@ static void first_screen(const nh_verification *v, bool colour, nh_text *out)
 {
     if (v->conserved) put_yes(v, colour, out);
     else put_no(v, colour, out);
+    if (v->named) nh_screen_equation("Phi", v->model->dag, as_shown(v, v->current), out);
     nh_screen_more(out, v->conserved ? "the symmetry in full, and the check" : "the state in full, and the check",
                    NULL);
 }
