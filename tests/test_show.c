@@ -132,6 +132,16 @@ Test(show, currents_have_the_names_of_the_file_or_of_analyze)
     place_clear(&p);
 }
 
+/* z'^2 = k^2 (x'^2 + y'^2): the chart has a root for z', the answers hold on both of its branches. */
+Test(show, named_quantities_hold_on_both_branches)
+{
+    place p = place_with_systems();
+    shows(&p, "verify appell_hamel --current E", (const char *const[]){"proved for all m, g, k, on both branches", "z'^2", NULL});
+    shows(&p, "verify appell_hamel --field Z(E)", (const char *const[]){"Yes: this is a constraint symmetry", NULL});
+    shows(&p, "verify appell_hamel --current Phi_1", (const char *const[]){"on both branches", NULL});
+    place_clear(&p);
+}
+
 Test(show, a_name_of_the_system_keeps_its_meaning)
 {
     place p = place_make();

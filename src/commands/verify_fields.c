@@ -43,7 +43,8 @@ static bool component(nh_verification *v, const char *typed, size_t begin, size_
             error,
             "the components along time (Z0) and along the coordinates determine the field; omitted components are 0");
     }
-    return nh_verification_read(v, "--field", typed, right, end - right, to, error);
+    return nh_verification_read(v, "--field", typed, right, end - right, to, error) &&
+           nh_analysis_file_to_chart(v->model, *to, to, error);
 }
 
 /* Solves Z^s = zeta^i R^s_i + rho^s Z^0 for zeta, from n rows of R: those of the free coordinates, or by least squares

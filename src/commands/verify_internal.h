@@ -19,8 +19,8 @@ nh_verification *nh_verification_ask_motions(nh_verification_question question, 
 /* Takes the system, and derives its model.  NULL: failed. */
 nh_verification *nh_verification_start(nh_verification_question question, nh_error *error);
 
-/* typed[begin .. begin + length) as a function in the chart, with the names of verify_names.c; a field of these names,
- * which is added to `out`. */
+/* typed[begin .. begin + length) as a function of the system, with the names of verify_names.c; a field of these names,
+ * in the chart, which is added to `out`. */
 bool nh_verification_read(nh_verification *v, const char *option, const char *typed, size_t begin, size_t length,
                           nh_ex *out, nh_error *error);
 bool nh_verification_read_field(nh_verification *v, const char *typed, nh_field *out, nh_error *error);

@@ -56,6 +56,12 @@ static bool same_name(const char *a, const char *b)
 
 /* ---- the currents ---- */
 
+/* As a person writes it: in velocities, where the chart has roots. */
+static nh_ex in_velocities(const nh_model *model, nh_ex e)
+{
+    return nh_chart_in_velocities(model->chart, nh_chart_shown(model->chart, e));
+}
+
 /* A current as `analyze` writes it, of the same system, with the analysis that it would use. */
 static bool found_by_analysis(names *x, const char *word, nh_ex *out, nh_error *error)
 {
@@ -78,7 +84,7 @@ static bool found_by_analysis(names *x, const char *word, nh_ex *out, nh_error *
         return nh_error_hint(error, "it finds %zu; or write the formula", list->count);
     }
     const nh_model *model = x->own->question->model;
-    char *text = nh_print_string(model->dag, nh_chart_shown(model->chart, c->phi));
+    char *text = nh_print_string(model->dag, in_velocities(model, c->phi));
     bool good = nh_system_expression_text(v->system, x->option, text, 0, NULL, out, error);
     nh_free(text);
     return good;
@@ -89,8 +95,8 @@ static bool meaning(names *x, const char *word, nh_ex *out, nh_error *error)
 {
     const nh_model *model = x->v->model;
     const nh_system *system = x->v->system;
-    if (!strcmp(word, "E")) return *out = model->E, true;
-    if (!strcmp(word, "Lbar")) return *out = model->Lbar, true;
+    if (!strcmp(word, "E")) return *out = in_velocities(model, model->E), true;
+    if (!strcmp(word, "Lbar")) return *out = in_velocities(model, model->Lbar), true;
     for (size_t i = 0; i < system->currents; i++)
         if (same_name(system->current[i].name, word)) return *out = system->current[i].value, true;
     bool numbered = !strncmp(word, "Phi", 3) && isdigit((unsigned char)word[3 + (word[3] == '_')]);
@@ -119,8 +125,7 @@ static bool learn(names *x, const char *typed, size_t begin, size_t length, nh_e
 
 static bool parse(names *x, const char *typed, size_t begin, size_t length, nh_ex *out, nh_error *error)
 {
-    return nh_system_expression_part(x->v->system, x->option, typed, begin, length, x->count, x->name, out, error) &&
-           nh_analysis_file_to_chart(x->v->model, *out, out, error);
+    return nh_system_expression_part(x->v->system, x->option, typed, begin, length, x->count, x->name, out, error);
 }
 
 bool nh_verification_read(nh_verification *v, const char *option, const char *typed, size_t begin, size_t length,
@@ -177,6 +182,7 @@ static bool take_fields(names *x, const char *typed, char *text, named_field *f,
         if (close == end) return nh_deck_fail_typed(x->option, typed, i + 1, error, "a bracket is not closed");
         if (*count == most_fields) return nh_deck_fail_typed(x->option, typed, i, error, "these are too many fields");
         if (!learn(x, typed, i + 2, close - i - 2, error) || !parse(x, typed, i + 2, close - i - 2, &phi, error) ||
+            !nh_analysis_file_to_chart(x->v->model, phi, &phi, error) ||
             !field_of_current(x, phi, &f[*count].field, error))
             return false;
         memset(text + i, '_', close + 1 - i);
@@ -226,7 +232,7 @@ bool nh_verification_read_field(nh_verification *v, const char *typed, nh_field 
         add(&x, "Gamma", f[0].letter);
     }
     good = take_fields(&x, typed, text, f, &count, error) && learn(&x, text, 0, strlen(text), error) &&
-           parse(&x, text, 0, strlen(text), &e, error);
+           parse(&x, text, 0, strlen(text), &e, error) && nh_analysis_file_to_chart(v->model, e, &e, error);
     nh_analysis_free(x.own);
     if (!good) return unmask(error->excerpt, text, typed), false;
     if (!linear(v, e, count, f, coefficient)) {
