@@ -453,7 +453,7 @@ nh_sheet *nh_geometry_overview(nh_arena *arena, const nh_model *model, const nh_
     b.s->written = options->written;
     overview_velocities(&b);
     overview_lagrangian(&b);
-    nh_sheet_begin(b.s, "fields", "Fields, and their brackets that do not vanish", "");
+    nh_sheet_begin(b.s, "fields", "Fields of the canonical distribution, and their brackets", "");
     basis(&b);
     brackets(&b);
     overview_equations(&b);
