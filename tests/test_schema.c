@@ -1,4 +1,4 @@
-/* docs/schema: the JSON of analyze, verify, classify, scan, export, benchmark, simulate, reduce and linearize is checked by the part of JSON Schema
+/* docs/schema: the JSON of analyze, show, verify, classify, scan, export, benchmark, simulate, reduce and linearize is checked by the part of JSON Schema
  * that these files use. */
 #include <cjson/cJSON.h>
 
@@ -358,6 +358,32 @@ Test(schema, what_verify_writes_fits)
     place_clear(&p);
 }
 
+/* With quasi-velocities, coordinate velocities, a root, none. */
+Test(schema, what_show_writes_fits)
+{
+    static const char *const lines[] = {"sleigh", "sleigh --velocities coordinates", "constant_speed", "kepler", "rolling_ball"};
+    cJSON *schema = whole = read_json("docs/schema/show.json");
+    place p = place_with_systems();
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char line[300];
+        snprintf(line, sizeof line, "show %s --equations --json -", lines[i]);
+        finished f = run(&p, line);
+        cr_assert(f.code == 0, "%s: %s", line, f.err);
+        cJSON *root = cJSON_Parse(f.out);
+        verdict v = {""};
+        cr_expect(fits(schema, root, "", &v), "%s: %s", lines[i], v.fault);
+        cJSON_AddNumberToObject(cJSON_GetObjectItem(root, "overview"), "more", 1);
+        cr_expect_not(fits(schema, root, "", &v), "an unknown key");
+        cJSON_DeleteItemFromObject(cJSON_GetObjectItem(root, "overview"), "more");
+        cJSON_DeleteItemFromObject(cJSON_GetObjectItem(root, "equations"), "semispray");
+        cr_expect_not(fits(schema, root, "", &v), "a missing key");
+        cJSON_Delete(root);
+        finished_clear(&f);
+    }
+    cJSON_Delete(schema);
+    place_clear(&p);
+}
+
 static void reduce_fits(const place *p, const char *words)
 {
     char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];
@@ -399,7 +425,7 @@ Test(schema, what_reduce_writes_fits, PLAIN_ONLY)
 Test(schema, what_is_left_of_a_run_fits)
 {
     static const char *const lines[][2] = {
-        {"analyze", "analyze sleigh"}, {"verify", "verify sleigh --current v"}, {"benchmark", "benchmark sleigh"}, {"export", "export sleigh"}, {"simulate", "simulate sleigh"}, {"reduce", "reduce sleigh"}};
+        {"analyze", "analyze sleigh"}, {"verify", "verify sleigh --current v"}, {"benchmark", "benchmark sleigh"}, {"export", "export sleigh"}, {"simulate", "simulate sleigh"}, {"reduce", "reduce sleigh"}, {"show", "show sleigh --equations"}};
     place p = place_make();
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         char line[300], environment[PATH_MAX + 30], path[PATH_MAX + 30];

@@ -51,6 +51,9 @@ const char *nh_cli_program(void);
 /* Parses the words after the program's name. */
 bool nh_cli_parse(nh_cli *cli, int argc, char **argv, nh_error *error);
 
+/* Computes the answer of the command; writes it to the folder, or prints it.  Returns the exit code. */
+int nh_cli_documented(nh_cli *cli, nh_error *error);
+
 /* Runs the command; returns its exit code. */
 typedef int nh_cli_command(nh_cli *cli, nh_error *error);
 #define X(name, operand, meaning, example) nh_cli_command nh_cli_##name;

@@ -12,14 +12,14 @@ bool nh_word_among(const char *words, const char *word);
 /*    code           name           argument            shown as             of the commands      meaning */
 #define NH_CLI_OPTION_TABLE(X)                                                                                         \
     X(opt_set, "set", required_argument, "NAME=VALUE",                                                                 \
-      "analyze verify simulate benchmark reduce classify scan linearize export", "set a parameter; repeatable")        \
+      "analyze verify simulate benchmark reduce classify scan linearize export show", "set a parameter; repeatable")   \
     X(opt_wheel, "wheel", required_argument, "LINK[=RADIUS]",                                                          \
       "analyze verify simulate benchmark reduce classify scan linearize export show",                                  \
       "robots: this link rolls on the plane z = 0; repeatable")                                                        \
     X(opt_base, "base", required_argument, "fixed|planar|floating|free",                                               \
       "analyze verify simulate benchmark reduce classify scan linearize export show",                                  \
       "robots: how the root link is carried; planar with wheels, else fixed")                                          \
-    X(opt_on, "on", required_argument, "\"p_x = 0\"", "analyze verify classify",                                       \
+    X(opt_on, "on", required_argument, "\"p_x = 0\"", "analyze verify classify show",                                  \
       "on this level of an integral linear in the velocities, p_x: the momentum of x; repeatable")                     \
     X(opt_analysis, "analysis", required_argument, "FILE", "analyze simulate benchmark",                               \
       "read ansatz and motion from this analysis file")                                                                \
@@ -28,23 +28,24 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_route, "route", required_argument, "both|fields|currents", "analyze",                                        \
       "fit symmetry fields first and currents then, or one of them alone")                                             \
     X(opt_velocities, "velocities", required_argument, "auto|quasi|coordinates",                                       \
-      "analyze verify simulate benchmark export", "velocities of the computation")                                     \
+      "analyze verify simulate benchmark export show", "velocities of the computation")                                \
     X(opt_json, "json", optional_argument, "[FILE|-]",                                                                 \
-      "analyze verify simulate benchmark reduce classify scan linearize export",                                       \
+      "analyze verify simulate benchmark reduce classify scan linearize export show",                                  \
       "write JSON to FILE (- for standard output, and nothing else)")                                                  \
-    X(opt_html, "html", required_argument, "FILE", "analyze verify simulate benchmark reduce classify scan linearize", \
+    X(opt_html, "html", required_argument, "FILE",                                                                     \
+      "analyze verify simulate benchmark reduce classify scan linearize show",                                         \
       "write the result as one self-contained page")                                                                   \
     X(opt_tex, "tex", required_argument, "FILE",                                                                       \
-      "analyze verify simulate benchmark reduce classify scan linearize export",                                       \
+      "analyze verify simulate benchmark reduce classify scan linearize export show",                                  \
       "write the result as a LaTeX document")                                                                          \
     X(opt_fragment, "fragment", no_argument, "", "analyze",                                                            \
       "LaTeX without a preamble, to include in another document")                                                      \
     X('o', "output", required_argument, "DIR",                                                                         \
-      "analyze verify simulate reduce classify benchmark scan linearize export new",                                   \
+      "analyze verify simulate reduce classify benchmark scan linearize export show new",                              \
       "-o: write all files into a folder; of `new`: the file")                                                         \
     X(opt_current, "current", required_argument, "EXPR", "verify", "is this conserved?")                               \
     X(opt_field, "field", required_argument, "\"Z0=..; x=..\"", "verify", "is this a constraint symmetry?")            \
-    X(opt_equations, "equations", no_argument, "", "analyze verify reduce",                                            \
+    X(opt_equations, "equations", no_argument, "", "analyze verify reduce show",                                       \
       "also the geometry: forms, Gamma, determining equations; connection, curvature, H")                              \
     X(opt_initial, "initial", required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export",             \
       "initial state")                                                                                                 \
@@ -110,22 +111,25 @@ bool nh_word_among(const char *words, const char *word);
       "count integrals polynomial in the velocities up to this degree")                                                \
     X(opt_threads, "threads", required_argument, "N", "analyze", "number of threads; it does not change the result")   \
     X(opt_max_seconds, "max-seconds", required_argument, "S",                                                          \
-      "analyze verify simulate benchmark reduce classify scan linearize export",                                       \
+      "analyze verify simulate benchmark reduce classify scan linearize export show",                                  \
       "time limit: the run ends then, with partial results")                                                           \
     X(opt_max_memory, "max-memory", required_argument, "SIZE",                                                         \
-      "analyze verify simulate benchmark reduce classify scan linearize export", "the same for the memory: 500M, 2G")  \
+      "analyze verify simulate benchmark reduce classify scan linearize export show",                                  \
+      "the same for the memory: 500M, 2G")                                                                             \
     X(opt_option, "option", required_argument, "NAME=VALUE",                                                           \
-      "analyze verify simulate benchmark reduce classify scan linearize export",                                       \
+      "analyze verify simulate benchmark reduce classify scan linearize export show",                                  \
       "set an option that `nhsym explain options` lists")                                                              \
     X(opt_progress, "progress", required_argument, "auto|always|never",                                                \
-      "analyze verify simulate benchmark reduce classify scan linearize export",                                       \
+      "analyze verify simulate benchmark reduce classify scan linearize export show",                                  \
       "show the current step on standard error")                                                                       \
-    X('q', "quiet", no_argument, "", "analyze verify simulate benchmark reduce classify scan linearize export new",    \
+    X('q', "quiet", no_argument, "",                                                                                   \
+      "analyze verify simulate benchmark reduce classify scan linearize export show new",                              \
       "-q: print only tables and code")                                                                                \
-    X('v', "details", no_argument, "", "analyze verify simulate benchmark reduce classify scan linearize",             \
+    X('v', "details", no_argument, "", "analyze verify simulate benchmark reduce classify scan linearize show",        \
       "-v: everything: symmetries, equations, checks, how it was searched")                                            \
     X(opt_no_color, "no-color", no_argument, "",                                                                       \
-      "analyze verify simulate benchmark reduce classify scan linearize export", "no colours; NO_COLOR does the same") \
+      "analyze verify simulate benchmark reduce classify scan linearize export show",                                  \
+      "no colours; NO_COLOR does the same")                                                                            \
     X('h', "help", no_argument, "", "", "-h: list the options of the command")                                         \
     X(opt_version, "version", no_argument, "", "", "print the version")
 
@@ -143,6 +147,8 @@ bool nh_word_among(const char *words, const char *word);
     X("of", "scan", "which numbers: count (of integrals), analyze or reduce")                                          \
     X("of", "export", "the parts: equations, momenta, submanifold, currents, reduced")                                 \
     X("of", "show", "only these names, one per line: parameters, coordinates, velocities")                             \
+    X("equations", "show",                                                                                             \
+      "the geometry: chart, Lagrangian, fields, coefficients, equations; with --details all forms")                    \
     X("output", "scan", "the folder of its parts and its result")                                                      \
     X("output", "export", "write the code into files of this folder")                                                  \
     X("csv", "benchmark", "write a table: a row for each run, with step or tolerance, error, time and observed order") \
@@ -189,7 +195,7 @@ const char *nh_cli_command_near(const char *word);
     X(linearize, "SYSTEM|FILE", "linear equations at a state, and stability", "nhsym linearize sleigh --at \"v=1\"")   \
     X(export, "SYSTEM|FILE", "equations, currents and reductions as code", "nhsym export sleigh --to c -o code")       \
     X(list, "[WORD]", "list the available systems, or those with a word", "nhsym list pendulum")                       \
-    X(show, "SYSTEM|FILE", "print a system file; a robot description as one", "nhsym show sleigh")                     \
+    X(show, "SYSTEM|FILE", "print a system file, or its equations", "nhsym show sleigh --equations")                   \
     X(new, "NAME", "write NAME.yaml, a system to edit", "nhsym new mine --like double_pendulum")                       \
     X(explain, "[TOPIC]", "define a word of the report", "nhsym explain gap")                                          \
     X(version, "", "print the version", "nhsym version")                                                               \

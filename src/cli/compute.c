@@ -63,7 +63,7 @@ static int answer(nh_cli *cli, bool (*write)(nh_cli *, const nh_answer *, nh_err
 }
 
 /* Writes to the folder, or prints. */
-static int documented(nh_cli *cli, nh_error *error)
+int nh_cli_documented(nh_cli *cli, nh_error *error)
 {
     if (!begin(cli, error) || !nh_cli_use_folder(cli, error) || !nh_cli_can_write(cli, error)) return error->code;
     return answer(cli, nh_cli_write_answer, error);
@@ -74,7 +74,7 @@ int nh_cli_analyze(nh_cli *cli, nh_error *error)
     if (cli->fragment && !cli->tex && !cli->folder)
         return lacks(error, "--fragment needs --tex", "for example: --tex body.tex --fragment"), NH_USAGE;
     if (cli->operands > 1) return one_system(cli, "nhsym analyze sleigh", error), NH_USAGE;
-    return documented(cli, error);
+    return nh_cli_documented(cli, error);
 }
 
 int nh_cli_verify(nh_cli *cli, nh_error *error)
@@ -84,24 +84,24 @@ int nh_cli_verify(nh_cli *cli, nh_error *error)
         return lacks(error, "`nhsym verify` needs one system and either --current or --field",
                      "nhsym verify sleigh --current \"m*v\", or --field \"Z0=1; phi=phi'; x=x'\""),
                NH_USAGE;
-    return documented(cli, error);
+    return nh_cli_documented(cli, error);
 }
 
 int nh_cli_benchmark(nh_cli *cli, nh_error *error)
 {
-    return one_system(cli, "nhsym benchmark sleigh", error) ? documented(cli, error) : NH_USAGE;
+    return one_system(cli, "nhsym benchmark sleigh", error) ? nh_cli_documented(cli, error) : NH_USAGE;
 }
 
 int nh_cli_reduce(nh_cli *cli, nh_error *error)
 {
     static const char example[] = "nhsym reduce crane, or nhsym reduce mine.yaml --group \"x=1; y=1\"";
-    return one_system(cli, example, error) ? documented(cli, error) : NH_USAGE;
+    return one_system(cli, example, error) ? nh_cli_documented(cli, error) : NH_USAGE;
 }
 
 int nh_cli_linearize(nh_cli *cli, nh_error *error)
 {
     static const char example[] = "nhsym linearize double_pendulum --at \"q=pi\"";
-    return one_system(cli, example, error) ? documented(cli, error) : NH_USAGE;
+    return one_system(cli, example, error) ? nh_cli_documented(cli, error) : NH_USAGE;
 }
 
 int nh_cli_classify(nh_cli *cli, nh_error *error)
@@ -111,7 +111,7 @@ int nh_cli_classify(nh_cli *cli, nh_error *error)
         return lacks(error, "classify which system, over which parameter?",
                      "nhsym classify penning_trap --over w --degree 2"),
                NH_USAGE;
-    return documented(cli, error);
+    return nh_cli_documented(cli, error);
 }
 
 /* Several motions are one table, or one picture. */
@@ -142,7 +142,7 @@ int nh_cli_simulate(nh_cli *cli, nh_error *error)
     if (!one_table(cli, error)) return NH_USAGE;
     cli->ask.draw = nh_cli_wants_document(cli) != NULL; /* before the folder wants all of them */
     cli->ask.picture = cli->ask.draw || cli->svg || cli->pdf || cli->folder;
-    return documented(cli, error);
+    return nh_cli_documented(cli, error);
 }
 
 /* ---- a scan: its folder holds the work, too ---- */

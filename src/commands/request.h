@@ -23,6 +23,7 @@ typedef struct nh_request {
     nh_arena *arena;            /* of its strings */
     const char *command, *line; /* "analyze"; all that was typed, for reports */
     const char *system_path, *analysis_path;
+    const char *system_name;  /* as it was typed, to find an analysis of the same name */
     const char *system_words; /* the system as typed, with its --wheel, --base, --on, --input, for a command line */
     const char *typed;        /* inputs and functions of it that were typed before the system, or NULL */
     size_t settings;          /* --set, applied after the settings of the analysis file */

@@ -2,8 +2,10 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/progress.h"
+#include "commands/show.h"
 #include "graph/declared.h"
 #include "graph/diff.h"
 #include "graph/terms.h"
@@ -40,9 +42,11 @@ static void ask_other_branch(nh_verification *v, nh_ex e, const nh_options *opti
     nh_model_free(other);
 }
 
-nh_verification *nh_verification_start(nh_system *system, nh_chart_choice chart, const nh_options *options,
-                                       nh_error *error)
+nh_verification *nh_verification_start(nh_verification_question asked, nh_error *error)
 {
+    nh_system *system = asked.system;
+    nh_chart_choice chart = asked.chart;
+    const nh_options *options = asked.options;
     nh_progress("the equations of motion", -1);
     nh_model *model = nh_model_create(system, nh_chart_create(system, chart, (uint64_t)options->seed, error), error);
     if (model && nh_time_scale_set(system, model) != 1) {
@@ -55,13 +59,16 @@ nh_verification *nh_verification_start(nh_system *system, nh_chart_choice chart,
     }
     nh_arena *arena = nh_arena_create();
     nh_verification *v = nh_arena_alloc(arena, sizeof *v);
-    *v = (nh_verification){.arena = arena, .system = system, .model = model};
+    *v = (nh_verification){
+        .arena = arena, .options = options, .request = asked.request, .system = system, .model = model};
     name_branches(v);
     return v;
 }
 
 nh_verification *nh_verification_complete(nh_verification *v, bool good, nh_error *error)
 {
+    v->options = NULL;
+    v->request = NULL;
     if (good && nh_interrupted()) good = nh_fail_ended(error, "before this was decided");
     if (good) return v;
     nh_verification_free(v);
@@ -237,13 +244,13 @@ bool nh_verification_decide(nh_verification *v, const nh_options *options, nh_er
     return true;
 }
 
-nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *text,
-                                            const nh_options *options, nh_error *error)
+nh_verification *nh_verification_ask_current(nh_verification_question asked, nh_error *error)
 {
-    nh_verification *v = nh_verification_start(system, chart, options, error);
+    const nh_options *options = asked.options;
+    nh_verification *v = nh_verification_start(asked, error);
     nh_ex e;
     if (!v) return NULL;
-    bool good = nh_system_expression_text(system, "--current", text, 0, NULL, &e, error) &&
+    bool good = nh_verification_read(v, "--current", asked.text, 0, strlen(asked.text), &e, error) &&
                 nh_analysis_file_to_chart(v->model, e, &v->current, error);
     if (good) {
         v->current = nh_simplify(v->model->dag, v->current);
@@ -254,13 +261,25 @@ nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice c
     return nh_verification_complete(v, good, error);
 }
 
+nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *text,
+                                            const nh_options *options, nh_error *error)
+{
+    return nh_verification_ask_current((nh_verification_question){system, chart, text, options, NULL}, error);
+}
+
+nh_verification *nh_verification_create(const nh_request *q, nh_error *error)
+{
+    nh_system *system = nh_system_read(q->system_path, q->settings, q->setting, error); /* the verification's own */
+    nh_verification_question asked = {system, q->chart, q->current ? q->current : q->field, &q->options, q};
+    if (!system) return NULL;
+    if (q->current) return nh_verification_ask_current(asked, error);
+    bool of_motions = q->of && !strcmp(q->of, "equations");
+    return (of_motions ? nh_verification_ask_motions : nh_verification_ask_field)(asked, error);
+}
+
 void nh_verification_write_out(nh_verification *v, const nh_options *options)
 {
-    nh_error ignored;
-    nh_error_clear(&ignored);
-    if (v->model->chart->quasi && v->system->constraints)
-        v->other = nh_model_create(
-            v->system, nh_chart_create(v->system, NH_CHART_COORDINATES, (uint64_t)options->seed, &ignored), &ignored);
+    v->other = nh_shown_other(v->model, options);
     v->theory = nh_theory_of(v->arena, v->model, v->other, 1, options);
     if (!v->has_symmetry || v->trivial) return;
     nh_theory_add(v->arena, v->theory, "Phi", &v->symmetry);

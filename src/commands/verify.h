@@ -6,14 +6,19 @@
 #ifndef NH_VERIFY_H
 #define NH_VERIFY_H
 
+#include "commands/request.h"
 #include "search/analysis.h"
 
 struct nh_verification {
     nh_arena *arena;
+    /* while the question is read: its options, and what else `analyze` needs for a name such as Phi_1, or NULL */
+    const nh_options *options;
+    const nh_request *request;
     nh_system *system;
     nh_model *model;
     /* in the chart; for a field: its current alpha(Z), if it lies in the canonical distribution */
     nh_ex current;
+    bool named;   /* it was asked for by a name of verify_names.c: the formula is an answer, too */
     nh_ex *form;  /* for a field: i_Z phi^a, one for each constraint; else NULL */
     bool outside; /* for a field: these do not vanish, so Z is not in the canonical distribution */
     /* for a field: the question is whether it is a symmetry of the equations of motion, [Gamma,Z] = f Gamma, and not a
@@ -48,11 +53,12 @@ struct nh_verification {
     const struct nh_simulation *motion; /* one motion, for a page that is being written; or NULL */
 };
 
-/* Tests a function.  These three take the system: the caller frees it with the result, and it is freed already on
- * failure.  NULL with a message for bad input. */
+/* Tests a function of the system, of E and Lbar, and of the currents that the file knows.  These three take the system:
+ * the caller frees it with the result, and it is freed already on failure.  NULL with a message for bad input. */
 nh_verification *nh_verification_of_current(nh_system *system, nh_chart_choice chart, const char *current,
                                             const nh_options *options, nh_error *error);
-/* Tests a field "Z0=..; phi=..; x=..": components along t and the coordinates; those that are not named are 0. */
+/* Tests a field "Z0=..; phi=..; x=..": components along t and the coordinates; those that are not named are 0.  Or a
+ * sum of functions times Gamma, and times Z(..), the field of a current: "Gamma/Lbar". */
 nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *field,
                                           const nh_options *options, nh_error *error);
 
@@ -60,6 +66,10 @@ nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice cha
  * others: Z is prolonged. */
 nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *field,
                                             const nh_options *options, nh_error *error);
+/* The question of a request, by one of these three: --current, --field, --of.  Here Phi_1 may be a current as `analyze`
+ * names it. */
+nh_verification *nh_verification_create(const nh_request *request, nh_error *error);
+
 /* The geometry written out, with the bracket of the field, if there is one. */
 void nh_verification_write_out(nh_verification *verification, const nh_options *options);
 

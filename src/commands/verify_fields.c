@@ -30,7 +30,7 @@ static bool component(nh_verification *v, const char *typed, size_t begin, size_
     const char *name = nh_system_state_name(v->system, nh_arena_strndup(v->arena, typed + begin, n));
     long index = nh_system_coordinate(v->system, name);
     bool is_time = !strcmp(name, "Z0") || !strcmp(name, "t");
-    nh_ex e, *to = is_time ? &g->time : index >= 0 ? &g->space[index] : NULL;
+    nh_ex *to = is_time ? &g->time : index >= 0 ? &g->space[index] : NULL;
     for (size_t i = 0; i < v->model->n && !to; i++)
         if (!strcmp(name, nh_name_of(v->model->dag, v->model->chart->w[i]))) {
             to = &g->W[i];
@@ -43,8 +43,8 @@ static bool component(nh_verification *v, const char *typed, size_t begin, size_
             error,
             "the components along time (Z0) and along the coordinates determine the field; omitted components are 0");
     }
-    return nh_system_expression_part(v->system, "--field", typed, right, end - right, 0, NULL, &e, error) &&
-           nh_analysis_file_to_chart(v->model, e, to, error);
+    return nh_verification_read(v, "--field", typed, right, end - right, to, error) &&
+           nh_analysis_file_to_chart(v->model, *to, to, error);
 }
 
 /* Solves Z^s = zeta^i R^s_i + rho^s Z^0 for zeta, from n rows of R: those of the free coordinates, or by least squares
@@ -173,7 +173,7 @@ static bool check_field(nh_verification *v, const given *g, const nh_options *op
     return true;
 }
 
-/* "Z0=..; x=.."; components that are not named vanish. */
+/* "Z0=..; x=..", where components that are not named vanish; or "Gamma/Lbar". */
 static bool read_field(nh_verification *v, const char *text, given *g, nh_error *error)
 {
     const nh_model *model = v->model;
@@ -182,6 +182,12 @@ static bool read_field(nh_verification *v, const char *text, given *g, nh_error 
                  .zeta = nh_arena_alloc(v->arena, (model->n + 1) * sizeof(nh_ex)),
                  .W = nh_arena_alloc(v->arena, (model->n + 1) * sizeof(nh_ex))};
     bool good = true; /* node 0 is the number 0 */
+    if (!strchr(text, '=') && (strstr(text, "Gamma") || strstr(text, "Z("))) {
+        nh_field z = {g->time, g->space, g->W};
+        g->has_W = good = nh_verification_read_field(v, text, &z, error);
+        g->time = z.time;
+        return good;
+    }
     for (const char *p = text; good && *p;) {
         size_t length = nh_text_entry(p, ",;");
         good = component(v, text, (size_t)(p - text), (size_t)(p - text) + length, g, error);
@@ -190,20 +196,26 @@ static bool read_field(nh_verification *v, const char *text, given *g, nh_error 
     return good;
 }
 
-nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *text,
-                                          const nh_options *options, nh_error *error)
+nh_verification *nh_verification_ask_field(nh_verification_question asked, nh_error *error)
 {
-    nh_verification *v = nh_verification_start(system, chart, options, error);
+    const nh_options *options = asked.options;
+    nh_verification *v = nh_verification_start(asked, error);
     if (!v) return NULL;
     nh_model *model = v->model;
     given g;
-    bool good = read_field(v, text, &g, error) && solve_zeta(v, g.time, g.space, g.zeta, error);
+    bool good = read_field(v, asked.text, &g, error) && solve_zeta(v, g.time, g.space, g.zeta, error);
     if (good) {
         v->current = nh_simplify(model->dag, nh_symmetry_current(model, g.time, g.zeta));
         outside(v, &g);
         good = check_field(v, &g, options, error) && (!v->conserved || nh_verification_describe(v, options, error));
     }
     return nh_verification_complete(v, good, error);
+}
+
+nh_verification *nh_verification_of_field(nh_system *system, nh_chart_choice chart, const char *text,
+                                          const nh_options *options, nh_error *error)
+{
+    return nh_verification_ask_field((nh_verification_question){system, chart, text, options, NULL}, error);
 }
 
 /* ---- symmetries of the equations of motion ---- */
@@ -266,14 +278,14 @@ static void make_currents(nh_verification *v, const given *g)
     }
 }
 
-nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *text,
-                                            const nh_options *options, nh_error *error)
+nh_verification *nh_verification_ask_motions(nh_verification_question asked, nh_error *error)
 {
-    nh_verification *v = nh_verification_start(system, chart, options, error);
+    const nh_options *options = asked.options;
+    nh_verification *v = nh_verification_start(asked, error);
     if (!v) return NULL;
     nh_model *model = v->model;
     given g;
-    bool good = read_field(v, text, &g, error);
+    bool good = read_field(v, asked.text, &g, error);
     v->of_equations = true;
     v->factor = good ? nh_simplify(model->dag, nh_model_gamma(model, g.time)) : 0;
     good = good && prolong(v, &g, error);
@@ -291,4 +303,10 @@ nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice c
     nh_points_free(points);
     if (good && v->conserved) make_currents(v, &g);
     return nh_verification_complete(v, good, error);
+}
+
+nh_verification *nh_verification_of_motions(nh_system *system, nh_chart_choice chart, const char *text,
+                                            const nh_options *options, nh_error *error)
+{
+    return nh_verification_ask_motions((nh_verification_question){system, chart, text, options, NULL}, error);
 }

@@ -4,9 +4,26 @@
 
 #include "commands/verify.h"
 
+/* What is asked: --current, --field, or --field --of equations.  `request` may be NULL. */
+typedef struct {
+    nh_system *system;
+    nh_chart_choice chart;
+    const char *text;
+    const nh_options *options;
+    const nh_request *request;
+} nh_verification_question;
+nh_verification *nh_verification_ask_current(nh_verification_question question, nh_error *error);
+nh_verification *nh_verification_ask_field(nh_verification_question question, nh_error *error);
+nh_verification *nh_verification_ask_motions(nh_verification_question question, nh_error *error);
+
 /* Takes the system, and derives its model.  NULL: failed. */
-nh_verification *nh_verification_start(nh_system *system, nh_chart_choice chart, const nh_options *options,
-                                       nh_error *error);
+nh_verification *nh_verification_start(nh_verification_question question, nh_error *error);
+
+/* typed[begin .. begin + length) as a function of the system, with the names of verify_names.c; a field of these names,
+ * in the chart, which is added to `out`. */
+bool nh_verification_read(nh_verification *v, const char *option, const char *typed, size_t begin, size_t length,
+                          nh_ex *out, nh_error *error);
+bool nh_verification_read_field(nh_verification *v, const char *typed, nh_field *out, nh_error *error);
 
 /* The verdict; for a run that was ended neither "yes" nor "no" is known: NULL, as for one that is not `good`. */
 nh_verification *nh_verification_complete(nh_verification *v, bool good, nh_error *error);

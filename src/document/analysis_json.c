@@ -455,7 +455,7 @@ char *nh_analysis_json(const nh_analysis *result)
     put_system(&w, root);
     put_equations(&w, root);
     nh_motion_sheet_json(result, root);
-    nh_geometry_json(result->arena, result->theory, result->question->analysis, root);
+    nh_geometry_json(result->arena, result->theory, result->question->analysis, root, "equations");
     put_search(&w, root);
     nh_json *currents = nh_json_put_array(root, "currents");
     for (size_t k = 0; k < list->count; k++) put_current(&w, currents, &list->found[k]);

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "exact/normal.h"
 #include "graph/dag.h"
 #include "graph/node.h"
 
@@ -70,6 +71,48 @@ static void forms(const builder *b)
     }
 }
 
+/* X_0 and X_l, which the paper writes d'_c/dt and d_c/dq^l. */
+static void basis(const builder *b)
+{
+    const nh_model *model = b->o;
+    bool quasi = model->chart->quasi;
+    nh_sheet_sum(b->s, "", quasi ? "X_{0}" : "\\frac{\\dcp}{\\d t}");
+    nh_sheet_add(b->s, nh_int(b->d, 1), "\\frac{\\p}{\\p t}");
+    for (size_t s = 0; s < model->m; s++) add(b, model->rho[s], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
+    for (size_t l = 0; l < model->n; l++) {
+        nh_sheet_sum(b->s, "", nh_sheet_label(b->s, quasi ? "X_{<%s>}" : "\\frac{\\pc}{\\p<%s>}", index_of(b, l)));
+        for (size_t s = 0; s < model->m; s++)
+            add(b, model->R[s * model->n + l], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
+    }
+}
+
+/* [X_l, X_s] and [X_0, X_l] along the coordinates, and [X_0, X_l] along time is 0: those that do not vanish. */
+static void brackets(const builder *b)
+{
+    const nh_model *model = b->o;
+    bool quasi = model->chart->quasi;
+    for (size_t l = 0; l < model->n; l++)
+        for (size_t s = 0; s <= l; s++) { /* s = 0: X_0, else X_{s-1} */
+            const char *first = quasi ? "X_{0}" : "\\frac{\\dcp}{\\d t}";
+            const char *format = quasi ? "X_{<%s>}" : "\\frac{\\pc}{\\p<%s>}";
+            if (s) first = nh_sheet_label(b->s, format, index_of(b, s - 1));
+            bool any = false;
+            for (size_t i = 0; i < model->m; i++) {
+                nh_ex R = model->R[i * model->n + l];
+                nh_ex e =
+                    s ? nh_sub(b->d, nh_model_X(model, s - 1, R), nh_model_X(model, l, model->R[i * model->n + s - 1]))
+                      : nh_sub(b->d, nh_model_X0(model, R), nh_model_X(model, l, model->rho[i]));
+                e = nh_simplify(b->d, e);
+                if (nh_is_zero(b->d, e)) continue;
+                if (!any)
+                    nh_sheet_sum(b->s, "",
+                                 nh_sheet_label(b->s, "[%s,%s]", first, nh_sheet_label(b->s, format, index_of(b, l))));
+                any = true;
+                add(b, e, "\\frac{\\p}{\\p<%s>}", coordinate(b, i));
+            }
+        }
+}
+
 static void distribution(const builder *b)
 {
     const nh_model *model = b->o;
@@ -80,14 +123,7 @@ static void distribution(const builder *b)
                        : "Without constraints: spanned by the derivative along motions, less the accelerations, and "
                          "the directions of positions and velocities.");
     forms(b);
-    nh_sheet_sum(b->s, "", quasi ? "X_{0}" : "\\frac{\\dcp}{\\d t}");
-    nh_sheet_add(b->s, nh_int(b->d, 1), "\\frac{\\p}{\\p t}");
-    for (size_t s = 0; s < model->m; s++) add(b, model->rho[s], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
-    for (size_t l = 0; l < model->n; l++) {
-        nh_sheet_sum(b->s, "", nh_sheet_label(b->s, quasi ? "X_{<%s>}" : "\\frac{\\pc}{\\p<%s>}", index_of(b, l)));
-        for (size_t s = 0; s < model->m; s++)
-            add(b, model->R[s * model->n + l], "\\frac{\\p}{\\p<%s>}", coordinate(b, s));
-    }
+    basis(b);
     for (size_t l = 0; l < model->n && quasi; l++) {
         nh_sheet_sum(b->s, "", nh_sheet_label(b->s, "Y_{<%s>}", index_of(b, l)));
         add(b, nh_int(b->d, 1), "\\frac{\\p}{\\p<%s>}", velocity(b, l));
@@ -353,6 +389,8 @@ nh_sheet *nh_geometry_sheet(nh_arena *arena, const nh_theory *t, const nh_analys
     b.s->written = t->written;
     normal_form(&b);
     distribution(&b);
+    nh_sheet_begin(b.s, "field_brackets", "Brackets of these fields", "Those that do not vanish.");
+    brackets(&b);
     lagrangian(&b);
     euler(&b);
     reduced(&b);
@@ -365,13 +403,71 @@ nh_sheet *nh_geometry_sheet(nh_arena *arena, const nh_theory *t, const nh_analys
     return b.s;
 }
 
-void nh_geometry_json(nh_arena *arena, const nh_theory *t, const nh_analysis_file *analysis, nh_json *to)
+/* ---- what a reader looks for first ---- */
+
+/* What the velocities of the coordinates are: of the constraints, or of the map to quasi-velocities. */
+static void overview_velocities(const builder *b)
 {
-    if (!t) {
-        nh_json_put_null(to, "equations");
+    const nh_model *model = b->o;
+    nh_sheet_begin(b->s, "velocities", "Chart", "");
+    b->s->section[b->s->sections - 1].literal = true;
+    for (size_t i = 0; i < model->m && !model->framed; i++)
+        if (nh_kind_of(b->d, model->rho[i]) != NH_SYMBOL || model->chart->quasi)
+            formula(b, model->rho[i], "<%s'>", coordinate(b, i), NULL);
+}
+
+static void overview_lagrangian(const builder *b)
+{
+    const nh_model *model = b->o;
+    const char *L = model->k ? "\\bar{L}" : "L";
+    nh_sheet_begin(b->s, "lagrangian",
+                   model->k ? "Lagrangian with the constraints inserted, and energy" : "Lagrangian and energy", "");
+    if (model->Lbar == model->E) {
+        formula(b, model->E, "%s = E", L, NULL);
         return;
     }
-    nh_json *item = nh_json_put_object(to, "equations");
+    formula(b, model->Lbar, "%s", L, NULL);
+    formula(b, model->E, "E", NULL, NULL);
+}
+
+static void overview_equations(const builder *b)
+{
+    const nh_model *model = b->o;
+    nh_sheet_begin(b->s, "forces", "Forces", "");
+    for (size_t l = 0; l < model->n; l++) formula(b, model->A[l], "\\bar{A}_{<%s>}", index_of(b, l), NULL);
+    matrix(b, nh_model_G(model), false, "G_{<%s>,<%s>}", false);
+    nh_sheet_begin(b->s, "inertia", "Mass matrix", "");
+    matrix(b, model->M, false, "M_{<%s>,<%s>}", true);
+    nh_sheet_begin(b->s, "equations_of_motion", "Equations of motion", "");
+    for (size_t l = 0; l < model->n; l++) nh_sheet_formula(b->s, rate(b, l), model->a[l]);
+    nh_sheet_begin(b->s, "multipliers", "Chetaev multipliers", "");
+    for (size_t a = 0; a < model->k; a++)
+        nh_sheet_formula(b->s, model->k == 1 ? "mu" : nh_sheet_label(b->s, "mu_{%zu}", a + 1), model->mu[a]);
+}
+
+nh_sheet *nh_geometry_overview(nh_arena *arena, const nh_model *model, const nh_options *options)
+{
+    builder b = {nh_sheet_create(arena, model->dag), NULL, model, model->dag};
+    b.s->chart = model->chart->roots ? model->chart : NULL;
+    b.s->shown = options->shown;
+    b.s->written = options->written;
+    overview_velocities(&b);
+    overview_lagrangian(&b);
+    nh_sheet_begin(b.s, "fields", "Fields of the canonical distribution, and their brackets", "");
+    basis(&b);
+    brackets(&b);
+    overview_equations(&b);
+    return b.s;
+}
+
+void nh_geometry_json(nh_arena *arena, const nh_theory *t, const nh_analysis_file *analysis, nh_json *to,
+                      const char *key)
+{
+    if (!t) {
+        nh_json_put_null(to, key);
+        return;
+    }
+    nh_json *item = nh_json_put_object(to, key);
     nh_json_put_text(item, "chart", t->model->chart->name);
     nh_sheet_json(nh_geometry_sheet(arena, t, analysis), item);
 }

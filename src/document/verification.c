@@ -119,7 +119,7 @@ char *nh_verification_json(const nh_verification *v, const nh_run *run)
     } else {
         nh_json_put_null(root, "counterexample");
     }
-    nh_geometry_json(v->arena, v->theory, NULL, root);
+    nh_geometry_json(v->arena, v->theory, NULL, root, "equations");
     if (run) nh_run_json(run, v->system, root);
     return nh_json_finish(root);
 }
@@ -314,6 +314,7 @@ static void first_screen(const nh_verification *v, bool colour, nh_text *out)
 {
     if (v->conserved) put_yes(v, colour, out);
     else put_no(v, colour, out);
+    if (v->named) nh_screen_equation("Phi", v->model->dag, as_shown(v, v->current), out);
     nh_screen_more(out, v->conserved ? "the symmetry in full, and the check" : "the state in full, and the check",
                    NULL);
 }

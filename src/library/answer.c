@@ -16,6 +16,7 @@
 #include "document/html.h"
 #include "document/linearized.h"
 #include "document/scan.h"
+#include "document/shown.h"
 #include "document/unfinished.h"
 #include "document/verification.h"
 #include "evaluate/machine.h"
@@ -153,11 +154,7 @@ static bool verify_check(const nh_request *q, nh_error *error)
 static bool verification_create(nh_answer *a, nh_error *error)
 {
     const nh_request *q = a->request;
-    nh_system *system = nh_system_read(q->system_path, q->settings, q->setting, error); /* the verification's own */
-    nh_verification *v = !system         ? NULL
-                         : of_motions(q) ? nh_verification_of_motions(system, q->chart, q->field, &q->options, error)
-                         : q->current    ? nh_verification_of_current(system, q->chart, q->current, &q->options, error)
-                                         : nh_verification_of_field(system, q->chart, q->field, &q->options, error);
+    nh_verification *v = nh_verification_create(q, error);
     if (v && q->equations) nh_verification_write_out(v, &q->options);
     return (a->part[0] = v) != NULL;
 }
@@ -190,6 +187,35 @@ const nh_answer_kind nh_answer_verify = {.name = "verify",
                                          .write = verification_write,
                                          .json = verification_json,
                                          .code = verification_code};
+
+/* ---- show --equations ---- */
+
+static bool shown_create(nh_answer *a, nh_error *error)
+{
+    return (a->part[0] = nh_shown_create(a->request, error)) != NULL;
+}
+
+static void shown_free(nh_answer *a) { nh_shown_free(a->part[0]); }
+
+static void shown_write(const nh_answer *a, nh_pen_style style, nh_text *out)
+{
+    nh_shown_write(a->part[0], &a->run, style, out);
+}
+
+static char *shown_json(const nh_answer *a) { return nh_shown_json(a->part[0], &a->run); }
+
+static int shown_code(const nh_answer *a, nh_error *error)
+{
+    (void)a;
+    return nh_answer_code(false, error);
+}
+
+const nh_answer_kind nh_answer_show = {.name = "show",
+                                       .create = shown_create,
+                                       .free = shown_free,
+                                       .write = shown_write,
+                                       .json = shown_json,
+                                       .code = shown_code};
 
 /* ---- classify ---- */
 

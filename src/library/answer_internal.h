@@ -6,7 +6,7 @@
 #include "library/answer.h"
 
 #define NH_ANSWER_TABLE(X)                                                                                             \
-    X(analyze) X(verify) X(simulate) X(benchmark) X(reduce) X(classify) X(scan) X(export) X(linearize)
+    X(analyze) X(verify) X(simulate) X(benchmark) X(reduce) X(classify) X(scan) X(export) X(linearize) X(show)
 #define X(name) extern const nh_answer_kind nh_answer_##name;
 NH_ANSWER_TABLE(X)
 #undef X

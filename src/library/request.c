@@ -187,6 +187,7 @@ static const char *system_words(const nh_request *q, const char *word)
 
 bool nh_request_system(nh_request *q, const char *word, nh_error *error)
 {
+    q->system_name = word;
     q->system_words = system_words(q, word);
     q->system_path = nh_places_find(q->arena, "systems", word, error);
     if (q->system_path && (q->wheels || q->base || q->ons)) q->system_path = completed(q, q->system_path);

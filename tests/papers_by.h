@@ -1,6 +1,8 @@
-/* bench_papers_by: computations of single rows: both sides of an equation, by what the program prints. */
-#ifndef NH_TESTS_BENCH_PAPERS_BY_H
-#define NH_TESTS_BENCH_PAPERS_BY_H
+/* papers_by: computations of single rows: both sides of an equation, by what the program prints. */
+#ifndef NH_TESTS_PAPERS_BY_H
+#define NH_TESTS_PAPERS_BY_H
+
+#include <cjson/cJSON.h>
 
 /* ---- small parts ---- */
 
@@ -118,7 +120,9 @@ static double lie_form(const document *d)
     nh_ex sum = nh_int(g, 0), y = parsed(d, "y"), La = coefficient(d, "lagrangian", "Lbar_y", ""), inner = coefficient(d, "lagrangian", "Lbar", "");
     for (size_t i = 0; i < d->symbols; i++) {
         const char *name = nh_name_of(g, d->symbol[i]);
-        if (at(at(d->root, "symmetry.components"), name)) sum = nh_add(g, sum, nh_mul(g, component(d, name), nh_diff(g, La, d->symbol[i])));
+        char velocity[60];
+        snprintf(velocity, sizeof velocity, "Z_%s", name);
+        if (line_of(d, "symmetry", velocity)) sum = nh_add(g, sum, nh_mul(g, component(d, name), nh_diff(g, La, d->symbol[i])));
     }
     for (size_t l = 0; l < 2; l++) {
         char velocity[20], label[40];
@@ -142,7 +146,7 @@ static double current_of_field(const document *d)
         snprintf(name, sizeof name, "zeta^%s", FREE[l]);
         sum = nh_add(g, sum, nh_mul(g, coefficient(d, "lagrangian", label, ""), unknown(d, name)));
     }
-    return differ(d, sum, parsed(d, text_at(d->root, "current")));
+    return differ(d, sum, parsed(d, shown(d, "question", "Phi", "")));
 }
 
 /* (15) as printed has X_l(g_s - X_s(g_l)) for X_l(g_s) - X_s(g_l) in the bracket of Z^0. */
@@ -240,6 +244,15 @@ static double parameter_of(const document *d, const char *name)
     return NAN;
 }
 
+static size_t place_of_symbol(const document *d, const char *name)
+{
+    nh_ex e = parsed(d, name);
+    for (size_t i = 0; i < d->symbols; i++)
+        if (d->symbol[i] == e) return i;
+    stop("no symbol", name);
+    return 0;
+}
+
 static void set(document *d, size_t p, const char *name, double value)
 {
     nh_ex e = parsed(d, name);
@@ -247,25 +260,176 @@ static void set(document *d, size_t p, const char *name, double value)
         if (d->symbol[i] == e) d->value[p][i] = value;
 }
 
-/* Along (33): phi = k asin tanh tau, v = x'/cos phi = a k omega_0 tanh tau, tau = omega_0 t/k; where = 33: in Gamma; 37, 38: the energies. */
-static double motion(const document *from, int where)
+/* Gamma along (33): phi = k asin tanh tau, v = x'/cos phi = a k omega_0 tanh tau, tau = omega_0 t/k. */
+static double motion(const document *from)
 {
     static document d;
-    double m = parameter_of(from, "m"), a = parameter_of(from, "a"), k = parameter_of(from, "k"), w0 = 1.3, got[2][points], want[2][points];
-    double E0 = m * a * a * k * k * w0 * w0 / 2;
+    double a = parameter_of(from, "a"), k = parameter_of(from, "k"), w0 = 1.3, got[2][points], want[2][points];
     d = *from;
     for (size_t p = 0; p < points; p++) {
         double tau = 0.05 + 0.06 * (double)p, ch = cosh(tau), phi = k * asin(tanh(tau)), w = w0 / ch, v = a * k * w0 * tanh(tau);
         set(&d, p, "phi", phi);
         set(&d, p, "phi'", w);
         set(&d, p, "x'", v * cos(phi));
-        want[0][p] = where == 33 ? -w0 * w0 / k * sinh(tau) / (ch * ch) : where == 37 ? E0 * tanh(tau) * tanh(tau) : E0 * (tanh(tau) * tanh(tau) + 1 / (k * k * ch * ch));
-        want[1][p] = where == 33 ? a * w0 * w0 * cos(phi) / (ch * ch) - v * sin(phi) * w : where == 37 ? E0 / (ch * ch) : E0 / (ch * ch) * (1 - 1 / (k * k));
+        want[0][p] = -w0 * w0 / k * sinh(tau) / (ch * ch);
+        want[1][p] = a * w0 * w0 * cos(phi) / (ch * ch) - v * sin(phi) * w;
     }
-    if (where == 33) evaluate(&d, coefficient(&d, "semispray", "Gamma", "d/dphi'"), got[0]), evaluate(&d, coefficient(&d, "semispray", "Gamma", "d/dx'"), got[1]);
-    if (where == 37) values(&d, E_T, got[0]), values(&d, "m/2*a^2*k^2*phi'^2", got[1]);
-    if (where == 38) values(&d, "m/2*((x' - a*phi'*sin(phi))^2 + (x'*tan(phi) + a*phi'*cos(phi))^2)", got[0]), values(&d, "m/2*a^2*(k^2 - 1)*phi'^2", got[1]);
+    evaluate(&d, coefficient(&d, "semispray", "Gamma", "d/dphi'"), got[0]);
+    evaluate(&d, coefficient(&d, "semispray", "Gamma", "d/dx'"), got[1]);
     return fmax(apart(got[0], want[0]), apart(got[1], want[1]));
+}
+
+/* ---- (25)-(27) ---- */
+
+/* |sum of terms| / sum of |terms| */
+static double residual(const document *d, size_t n, const nh_ex *term)
+{
+    double sum[points] = {0}, size[points] = {0}, value[points], worst = 0;
+    for (size_t i = 0; i < n; i++) {
+        evaluate(d, term[i], value);
+        for (size_t p = 0; p < points; p++) sum[p] += value[p], size[p] += fabs(value[p]);
+    }
+    for (size_t p = 0; p < points; p++) worst = fmax(worst, size[p] > 0 ? fabs(sum[p]) / size[p] : 0);
+    return worst;
+}
+
+/* Of f Gamma with f = 1/Lbar, which is a constraint symmetry of case 1; or of d/dt, the field of minus the energy. */
+typedef struct {
+    nh_ex zero, place[2], velocity[2], v[2], rise[2]; /* Z^0, Z^l, Ztilde^l; rise: (B A)^l = -Gamma^l */
+} case_1;
+
+static case_1 motion_or_time(const document *d, bool time)
+{
+    nh_dag *g = d->system->dag;
+    case_1 z = {.zero = nh_pow(g, coefficient(d, "lagrangian", "Lbar", ""), nh_int(g, -1))};
+    if (time) z.zero = nh_int(g, 1);
+    for (size_t l = 0; l < 2; l++) {
+        char name[20];
+        snprintf(name, sizeof name, "%s'", FREE[l]);
+        z.v[l] = parsed(d, name);
+        z.rise[l] = nh_neg(g, rate(d, z.v[l]));
+        z.place[l] = time ? nh_int(g, 0) : nh_mul(g, z.zero, z.v[l]);
+        z.velocity[l] = time ? nh_int(g, 0) : nh_neg(g, nh_mul(g, z.zero, z.rise[l]));
+    }
+    return z;
+}
+
+/* (d'_c/dt - (BA)^s d/dv^s)(Z^l - v^l Z^0) - (BA)^l Z^0 - Ztilde^l */
+static double equation_25(const document *d)
+{
+    nh_dag *g = d->system->dag;
+    double worst = 0;
+    for (size_t k = 0; k < 2; k++)
+        for (size_t l = 0; l < 2; l++) {
+            case_1 z = motion_or_time(d, k);
+            nh_ex slide = nh_sub(g, z.place[l], nh_mul(g, z.v[l], z.zero));
+            worst = fmax(worst, residual(d, 3, (nh_ex[]){rate(d, slide), nh_neg(g, nh_mul(g, z.rise[l], z.zero)), nh_neg(g, z.velocity[l])}));
+        }
+    return worst;
+}
+
+/* -d'_c((BA)^l Z^0)/dt - (Z^s - v^s Z^0) d_c(BA)^l/dq^s + Ztilde^s d(BA)^l/dv^s - d'_c Ztilde^l/dt + (BA)^s dZtilde^l/dv^s
+ * + (BA)^l (BA)^s dZ^0/dv^s; right is -Ztilde^s d(BA)^l/dv^s. */
+static double equation_27(const document *d, bool printed)
+{
+    static const char *const X[2] = {"d_c/dphi", "d_c/dx"};
+    nh_dag *g = d->system->dag;
+    case_1 z = motion_or_time(d, false);
+    double worst = 0;
+    for (size_t l = 0; l < 2; l++) {
+        nh_ex term[10];
+        size_t n = 0;
+        term[n++] = nh_neg(g, along(d, "d'_c/dt", nh_mul(g, z.rise[l], z.zero)));
+        term[n++] = nh_neg(g, along(d, "d'_c/dt", z.velocity[l]));
+        for (size_t s = 0; s < 2; s++) {
+            nh_ex bend = nh_mul(g, z.velocity[s], nh_diff(g, z.rise[l], z.v[s])), slide = nh_sub(g, z.place[s], nh_mul(g, z.v[s], z.zero));
+            term[n++] = nh_neg(g, nh_mul(g, slide, along(d, X[s], z.rise[l])));
+            term[n++] = printed ? bend : nh_neg(g, bend);
+            term[n++] = nh_mul(g, z.rise[s], nh_diff(g, z.velocity[l], z.v[s]));
+            term[n++] = nh_mul(g, z.rise[l], nh_mul(g, z.rise[s], nh_diff(g, z.zero, z.v[s])));
+        }
+        worst = fmax(worst, residual(d, n, term));
+    }
+    return worst;
+}
+
+/* Before (25): Xi = a Gamma with Xi^0 = a, and along velocities -B A, where a factor a is missing: of Gamma/Lbar. */
+static double before_25(const document *d, bool printed)
+{
+    nh_dag *g = d->system->dag;
+    case_1 z = motion_or_time(d, false);
+    nh_ex a = rate(d, z.zero);
+    double worst = 0;
+    for (size_t l = 0; l < 2; l++) {
+        /* [Gamma, f Gamma]~^l = Gamma(f Gamma^l) - f Gamma(Gamma^l) */
+        nh_ex speed = nh_neg(g, z.rise[l]), right = printed ? speed : nh_mul(g, a, speed);
+        worst = fmax(worst, residual(d, 3, (nh_ex[]){rate(d, z.velocity[l]), nh_neg(g, nh_mul(g, z.zero, rate(d, speed))), nh_neg(g, right)}));
+    }
+    return worst;
+}
+
+/* (24), last line: [Z,Gamma]~^l = Z^0 d'_c(-BA)^l/dt + (Z^s - v^s Z^0) d_c(-BA)^l/dq^s + Ztilde^s d(-BA)^l/dv^s - d'_c Ztilde^l/dt
+ * + (BA)^s dZtilde^l/dv^s; printed has the second derivative by a velocity. */
+static double last_of_24(const document *d, bool printed)
+{
+    static const char *const X[2] = {"d_c/dphi", "d_c/dx"};
+    nh_dag *g = d->system->dag;
+    double worst = 0;
+    for (size_t l = 0; l < 2; l++) {
+        char name[20], of[20];
+        snprintf(name, sizeof name, "%s'", FREE[l]);
+        snprintf(of, sizeof of, "d/d%s'", FREE[l]);
+        nh_ex speed = rate(d, parsed(d, name)), sum = nh_mul(g, unknown(d, "Z^0"), along(d, "d'_c/dt", speed));
+        for (size_t s = 0; s < 2; s++) {
+            snprintf(name, sizeof name, "zeta^%s", FREE[s]);
+            nh_ex slide = unknown(d, name);
+            snprintf(name, sizeof name, "%s'", FREE[s]);
+            nh_ex v = parsed(d, name);
+            sum = nh_add(g, sum, nh_mul(g, slide, printed ? nh_diff(g, speed, v) : along(d, X[s], speed)));
+            sum = nh_add(g, sum, nh_mul(g, component(d, name), nh_diff(g, speed, v)));
+        }
+        snprintf(name, sizeof name, "%s'", FREE[l]);
+        sum = nh_sub(g, sum, rate(d, component(d, name)));
+        nh_ex got = coefficient(d, "currents", "[Gamma,Z(Phi)]", of), motion = coefficient(d, "currents", "[Gamma,Z(Phi)]", "Gamma");
+        got = nh_add(g, got, nh_mul(g, motion, speed));
+        worst = fmax(worst, differ(d, nh_neg(g, sum), got));
+    }
+    return worst;
+}
+
+/* (26), and the third line of (24): (Z^l - v^l Z^0) eps'_l(g) - v^l Z^0 (BA)^s g_ls, where [Gamma,Z] lies in the canonical distribution; right is
+ * (Z^l - v^l Z^0) (eps'_l(g) + g_ls (BA)^s). */
+static double equation_26(const document *d, const char *const *q, const char *root, const char *dependent, bool printed)
+{
+    nh_dag *g = d->system->dag;
+    nh_ex term[8];
+    size_t n = 0;
+    for (size_t l = 0; l < 2; l++) {
+        char name[40], label[40];
+        snprintf(name, sizeof name, "zeta^%s", q[l]);
+        nh_ex slide = unknown(d, name);
+        snprintf(label, sizeof label, "eps_%s(g^%s)", q[l], dependent);
+        term[n++] = nh_mul(g, slide, coefficient(d, "euler_expressions", label, ""));
+        for (size_t s = 0; s < 2; s++) {
+            snprintf(name, sizeof name, "%s''", q[s]);
+            nh_ex bend = nh_neg(g, coefficient(d, "euler_expressions", label, name));
+            snprintf(name, sizeof name, "d/d%s'", q[s]);
+            nh_ex rise = nh_neg(g, coefficient(d, "semispray", "Gamma", name));
+            snprintf(name, sizeof name, "%s'", q[l]);
+            nh_ex before = printed ? nh_neg(g, nh_mul(g, parsed(d, name), unknown(d, "Z^0"))) : slide;
+            term[n++] = nh_mul(g, before, nh_mul(g, rise, bend));
+        }
+    }
+    if (root)
+        for (size_t i = 0; i < n; i++) term[i] = inserted(d, term[i], root);
+    return residual(d, n, term);
+}
+
+static void both_26(const document *d, double *printed, double *meant)
+{
+    static const char *const q[2] = {"y", "z"};
+    *printed = equation_26(d, q, "x'", "x", true);
+    *meant = equation_26(d, q, "x'", "x", false);
 }
 
 /* ---- the nonlinear constraint: y and z are free, x' a root ---- */
@@ -274,7 +438,7 @@ static void equation_22(const document *d, double *printed, double *meant)
 {
     static const char *const q[2] = {"y", "z"}, *const X[2] = {"d_c/dy", "d_c/dz"};
     nh_dag *g = d->system->dag;
-    nh_ex inverse[4], bend[4], G[4], turn[2], A[2], slope[2], zeta[2], w[2], Phi = parsed(d, text_at(d->root, "current")), sum = nh_int(g, 0), right = sum;
+    nh_ex inverse[4], bend[4], G[4], turn[2], A[2], slope[2], zeta[2], w[2], Phi = parsed(d, shown(d, "question", "Phi", "")), sum = nh_int(g, 0), right = sum;
     Phi = inserted(d, Phi, "x'");
     for (size_t l = 0; l < 2; l++) {
         char label[40], of[20];
@@ -328,16 +492,53 @@ static double crane_hamiltonian(const document *d)
             snprintf(label, sizeof label, "%s'", q[j]);
             v[j] = parsed(d, label);
             snprintf(label, sizeof label, "Khat_%s,%s", q[i < j ? i : j], q[i < j ? j : i]);
-            p[i] = nh_add(g, p[i], nh_mul(g, coefficient(d, "0.hamiltonian", label, ""), v[j]));
+            p[i] = nh_add(g, p[i], nh_mul(g, coefficient(d, "1.hamiltonian", label, ""), v[j]));
         }
     }
     twice = dot(d, 4, p, v);
     for (size_t i = 0; i < 4; i++)
         for (size_t j = i; j < 4; j++) {
             snprintf(label, sizeof label, i == j ? "p_%s^2" : "p_%s p_%s", q[i], q[j]);
-            H = nh_add(g, H, nh_mul(g, coefficient(d, "0.hamiltonian", "Hhat", label), nh_mul(g, p[i], p[j])));
+            H = nh_add(g, H, nh_mul(g, coefficient(d, "1.hamiltonian", "Hhat", label), nh_mul(g, p[i], p[j])));
         }
     return differ(d, nh_mul(g, nh_int(g, 2), H), twice);
+}
+
+/* x' = dH/dp and p' = -dH/dx + Upsilon x', with the printed H, Upsilon and rates, at p = Khat x'. */
+static double crane_equations(const document *d)
+{
+    static const char *const q[4] = {"psi1", "phi1", "psi2", "phi2"};
+    nh_dag *g = d->system->dag;
+    nh_ex p[4], v[4], c[4][4];
+    double worst = 0;
+    char label[60];
+    for (size_t i = 0; i < 4; i++) {
+        p[i] = nh_int(g, 0);
+        for (size_t j = 0; j < 4; j++) {
+            snprintf(label, sizeof label, "%s'", q[j]);
+            v[j] = parsed(d, label);
+            snprintf(label, sizeof label, "Khat_%s,%s", q[i < j ? i : j], q[i < j ? j : i]);
+            p[i] = nh_add(g, p[i], nh_mul(g, coefficient(d, "1.hamiltonian", label, ""), v[j]));
+            snprintf(label, sizeof label, i == j ? "p_%s^2" : "p_%s p_%s", q[i < j ? i : j], q[i < j ? j : i]);
+            c[i][j] = coefficient(d, "1.hamiltonian", "Hhat", label);
+        }
+    }
+    for (size_t i = 0; i < 4; i++) {
+        nh_ex slope = nh_int(g, 0), force = nh_int(g, 0);
+        for (size_t j = 0; j < 4; j++) {
+            slope = nh_add(g, slope, nh_mul(g, nh_mul(g, nh_int(g, i == j ? 2 : 1), c[i][j]), p[j]));
+            for (size_t k = j; k < 4; k++)
+                force = nh_sub(g, force, nh_mul(g, nh_diff(g, c[j][k], parsed(d, q[i])), nh_mul(g, p[j], p[k])));
+        }
+        for (size_t k = 0; k < 4 && i % 2 == 0; k++) { /* Upsilon_psi1,psi2: psi1 is 0, psi2 is 2 */
+            nh_ex part = nh_mul(g, coefficient(d, "1.gyroscopic_form", "Upsilon_psi1,psi2", nh_name_of(g, v[k])), nh_mul(g, v[k], v[2 - i]));
+            force = i == 0 ? nh_add(g, force, part) : nh_sub(g, force, part);
+        }
+        snprintf(label, sizeof label, "p_%s'", q[i]);
+        nh_ex size = nh_mul(g, p[0], v[0]), rate = coefficient(d, "1.stage", label, "");
+        worst = fmax(worst, fmax(differ(d, slope, v[i]), differ(d, nh_add(g, force, size), nh_add(g, rate, size))));
+    }
+    return worst;
 }
 
 static double upsilon(const document *d)
@@ -347,11 +548,11 @@ static double upsilon(const document *d)
     nh_dag *g = d->system->dag;
     nh_ex left = nh_int(g, 0), right = left;
     for (size_t k = 0; k < 4; k++) {
-        left = nh_add(g, left, nh_mul(g, coefficient(d, "0.gyroscopic_form", "Upsilon_psi1,psi2", q[k]), parsed(d, q[k])));
+        left = nh_add(g, left, nh_mul(g, coefficient(d, "1.gyroscopic_form", "Upsilon_psi1,psi2", q[k]), parsed(d, q[k])));
         for (size_t a = 0; a < 4; a++) {
             char label[10];
             snprintf(label, sizeof label, "J_%zu", a + 1);
-            nh_ex J = nh_mul(g, coefficient(d, "0.gyroscopic_form", label, q[k]), parsed(d, q[k]));
+            nh_ex J = nh_mul(g, coefficient(d, "1.gyroscopic_form", label, q[k]), parsed(d, q[k]));
             right = nh_add(g, right, nh_mul(g, J, nh_mul(g, parsed(d, vector[a]), parsed(d, "l/" DELTA "^2"))));
         }
     }
@@ -384,110 +585,67 @@ static size_t flat(const cJSON *item, double *out)
     return n;
 }
 
-/* The metric of the shipped crane against independent values with their parameters, at their places. */
-static double crane_metric(void)
+/* The metric of the shipped crane, minus the coefficients of accelerations in Lagrange's equations, against independent values. */
+static double crane_metric(const document *from)
 {
     cJSON *data = reference("crane_oracle.json");
-    const cJSON *one = cJSON_GetArrayItem(at(data, "sets"), 0), *parameter;
-    char words[4000] = "verify crane --equations --current t";
-    nh_setting setting[24];
-    size_t n = 0;
-    cJSON_ArrayForEach(parameter, at(one, "params")) {
-        snprintf(words + strlen(words), sizeof words - strlen(words), " --set %s=%.17g", parameter->string, parameter->valuedouble);
-        setting[n++] = (nh_setting){.name = parameter->string, .value = parameter->valuedouble};
-    }
+    const cJSON *one = cJSON_GetArrayItem(cJSON_GetObjectItem(data, "sets"), 0), *names = cJSON_GetObjectItem(data, "joint_coordinates"), *parameter;
+    const cJSON *place = cJSON_GetObjectItem(one, "points");
     static document d;
-    d = (document){.root = run(words), .system = system_of("crane", n, setting)};
-    scatter(&d);
+    d = *from;
     double worst = 0, q[8], K[64], got[points];
+    cJSON_ArrayForEach(parameter, cJSON_GetObjectItem(one, "params")) if (parameter_of(from, parameter->string) != parameter->valuedouble) stop("another value of", parameter->string);
     for (size_t i = 0; i < 8; i++)
         for (size_t j = 0; j < 8; j++) {
             char line[4] = {'#', (char)('0' + i), 0}, of[40];
-            snprintf(of, sizeof of, "%s''", cJSON_GetArrayItem(at(data, "joint_coordinates"), (int)j)->valuestring);
-            const char *name = cJSON_GetArrayItem(at(data, "joint_coordinates"), (int)i)->valuestring;
+            snprintf(of, sizeof of, "%s''", cJSON_GetArrayItem(names, (int)j)->valuestring);
             for (size_t k = 0; k < 8; k++)
-                if (!strcmp(d.system->coordinate[k].name, name)) line[1] = (char)('0' + k);
+                if (!strcmp(d.system->coordinate[k].name, cJSON_GetArrayItem(names, (int)i)->valuestring)) line[1] = (char)('0' + k);
             for (size_t p = 0; p < points; p++) {
-                flat(at(cJSON_GetArrayItem(at(one, "points"), (int)p), "q_full"), q);
-                for (size_t k = 0; k < 8; k++) set(&d, p, cJSON_GetArrayItem(at(data, "joint_coordinates"), (int)k)->valuestring, q[k]);
+                flat(cJSON_GetObjectItem(cJSON_GetArrayItem(place, (int)p), "q_full"), q);
+                for (size_t k = 0; k < 8; k++) set(&d, p, cJSON_GetArrayItem(names, (int)k)->valuestring, q[k]);
             }
             evaluate(&d, coefficient(&d, "chetaev_equations", line, of), got);
             for (size_t p = 0; p < points; p++) {
-                flat(at(cJSON_GetArrayItem(at(one, "points"), (int)p), "K_full"), K);
+                flat(cJSON_GetObjectItem(cJSON_GetArrayItem(place, (int)p), "K_full"), K);
                 worst = fmax(worst, fabs(got[p] + K[i * 8 + j]) / (1 + fabs(K[i * 8 + j])));
             }
         }
-    cJSON_Delete(d.root);
-    nh_system_free(d.system);
     cJSON_Delete(data);
     return worst;
 }
 
-/* ---- stages ---- */
-
-/* Brackets, or Euler-Poincare right-hand sides, by stages, against direct ones: the largest difference; and from what (20) gives. */
-static void stages(bool bracket, size_t most_blocks, double *error, double *off)
+/* The printed momenta on the constraint submanifold, against K q' with independent values of K, and q' by the normal form. */
+static double legendre(const document *from)
 {
-    cJSON *data = reference("stages_oracle.json");
-    const cJSON *each;
-    *error = *off = 0;
-    cJSON_ArrayForEach(each, at(data, "cases")) {
-        double c[1000], g0[100], eta[10], other[10], beta[10], want[10], printed[10], got[10], index[10];
-        size_t size[10], order[10], blocks = 0, d = 0;
-        const cJSON *b;
-        cJSON_ArrayForEach(b, at(each, "blocks")) {
-            size[blocks] = flat(b, index);
-            for (size_t i = 0; i < size[blocks]; i++) order[d++] = (size_t)index[i];
-            blocks++;
+    cJSON *data = reference("crane_oracle.json");
+    const cJSON *one = cJSON_GetArrayItem(cJSON_GetObjectItem(data, "sets"), 0), *names = cJSON_GetObjectItem(data, "joint_coordinates");
+    static document d;
+    d = *from;
+    double worst = 0, q[8], K[64], got[points], v[8][points];
+    char label[60];
+    for (size_t p = 0; p < points; p++) {
+        flat(cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(one, "points"), (int)p), "q_full"), q);
+        for (size_t k = 0; k < 8; k++) set(&d, p, cJSON_GetArrayItem(names, (int)k)->valuestring, q[k]);
+    }
+    for (size_t k = 0; k < 8; k++) {
+        snprintf(label, sizeof label, "%s'", cJSON_GetArrayItem(names, (int)k)->valuestring);
+        evaluate(&d, line_of(&d, "normal_form", label) ? coefficient(&d, "normal_form", label, "") : parsed(&d, label), v[k]);
+    }
+    for (size_t i = 0; i < 8; i++) {
+        double want[points];
+        snprintf(label, sizeof label, "p_%s", cJSON_GetArrayItem(names, (int)i)->valuestring);
+        if (!line_of(&d, "lagrangian", label)) stop("no momentum", label);
+        evaluate(&d, coefficient(&d, "lagrangian", label, ""), got);
+        for (size_t p = 0; p < points; p++) {
+            flat(cJSON_GetObjectItem(cJSON_GetArrayItem(cJSON_GetObjectItem(one, "points"), (int)p), "K_full"), K);
+            want[p] = 0;
+            for (size_t k = 0; k < 8; k++) want[p] += K[i * 8 + k] * v[k][p];
         }
-        if (blocks > most_blocks) continue;
-        nh_algebra g = nh_algebra_create(d);
-        flat(at(each, "structure_constants"), c);
-        memcpy(g.c, c, d * d * d * sizeof *c);
-        flat(at(each, "metric"), g0);
-        flat(at(each, "eta"), eta);
-        flat(at(each, "etabar"), other);
-        flat(at(each, "beta"), beta);
-        flat(at(each, bracket ? "bracket" : "betadot"), want);
-        flat(at(each, "betadot_printed_eq20"), printed);
-        nh_error e = {0};
-        nh_ideals chain;
-        if (!nh_ideals_init(&chain, &g, blocks, size, order, g0, &e)) stop("a chain", e.what);
-        if (bracket) nh_ideals_bracket(&chain, eta, other, got);
-        else nh_ideals_euler_poincare(&chain, eta, beta, got);
-        for (size_t i = 0; i < d; i++) *error = fmax(*error, fabs(got[i] - want[i])), *off = fmax(*off, fabs(got[i] - printed[i]));
-        nh_ideals_clear(&chain);
-        nh_algebra_clear(&g);
+        worst = fmax(worst, apart(got, want));
     }
     cJSON_Delete(data);
-}
-
-/* The example behind (21): in SO(3) x SO(3) x R each factor has the equations beta' = ad*_eta beta of its own. */
-static double direct_product(void)
-{
-    enum { d = 7 };
-    static const size_t size[3] = {3, 3, 1}, order[d] = {0, 1, 2, 3, 4, 5, 6};
-    static const double eta[d] = {0.3, -0.7, 1.1, 0.9, 0.2, -1.3, 0.6}, beta[d] = {1.2, 0.4, -0.5, -0.8, 1.7, 0.1, 2.3};
-    double metric[d * d] = {0}, got[d], worst = 0;
-    nh_error e = {0};
-    nh_algebra g = nh_algebra_create(d);
-    nh_ideals chain;
-    for (size_t i = 0; i < d; i++) metric[i * d + i] = 1 + (double)i / 2;
-    for (size_t f = 0; f < 6; f += 3)
-        for (size_t i = 0; i < 3; i++) {
-            size_t a = f + i, b = f + (i + 1) % 3, c = f + (i + 2) % 3;
-            g.c[(a * d + b) * d + c] = 1, g.c[(b * d + a) * d + c] = -1;
-        }
-    if (!nh_ideals_init(&chain, &g, 3, size, order, metric, &e)) stop("a chain", e.what);
-    nh_ideals_euler_poincare(&chain, eta, beta, got);
-    for (size_t f = 0; f < 6; f += 3)
-        for (size_t i = 0; i < 3; i++) {
-            size_t b = f + (i + 1) % 3, c = f + (i + 2) % 3;
-            worst = fmax(worst, fabs(got[f + i] - (beta[b] * eta[c] - beta[c] * eta[b])));
-        }
-    nh_ideals_clear(&chain);
-    nh_algebra_clear(&g);
-    return fmax(worst, fabs(got[6]));
+    return worst;
 }
 
 /* ---- Euler's disk ---- */
@@ -527,24 +685,22 @@ static double vanishes(const document *d, const char *text)
     return differ(d, nh_add(d->system->dag, e, size), size);
 }
 
-/* The currents that solve (51), by its accelerations: their rate, beside the largest of its terms. */
-static double solves(const document *d, int analyzed, const char *function)
+/* A current that solves (51), by its accelerations: its rate, beside the largest of its terms. */
+static double solves(const document *analyzed, const char *function)
 {
-    static const char *const coordinate[3][3] = {
-        {"theta", "theta'", "@T"}, {"varphi", "varphi'", "@P"}, {"psi", "psi'", "@S"}};
+    static const char *const coordinate[3][3] = {{"theta", "theta'", "@T"}, {"varphi", "varphi'", "@P"}, {"psi", "psi'", "@S"}};
+    const document *d = document_of(D_ROLLING);
     nh_dag *g = d->system->dag;
-    const cJSON *item;
     double worst = INFINITY;
-    cJSON_ArrayForEach(item, at(document_of(analyzed)->root, "currents"))
-    {
-        nh_ex phi, sum = nh_int(g, 0), term = sum;
-        if (!strstr(text_at(item, "expression"), function)) continue;
-        phi = parsed(d, text_at(item, "expression"));
-        for (size_t i = 0; i < 3; i++) {
-            nh_ex v = parsed(d, coordinate[i][1]), by_q = nh_diff(g, phi, parsed(d, coordinate[i][0]));
+    for (size_t i = 0; i < analyzed->lines; i++) {
+        const char *text = analyzed->line[i].text;
+        if (strncmp(text, "Phi", 3) || !strstr(text, " = ") || !strstr(text, function)) continue;
+        nh_ex phi = parsed(d, text_with_names(analyzed, i)), sum = nh_int(g, 0), term = sum;
+        for (size_t k = 0; k < 3; k++) {
+            nh_ex v = parsed(d, coordinate[k][1]), by_q = nh_diff(g, phi, parsed(d, coordinate[k][0]));
             nh_ex by_v = nh_diff(g, phi, v);
-            sum = nh_add(g, sum, nh_add(g, nh_mul(g, by_q, v), nh_mul(g, by_v, with_accelerations(d, coordinate[i][2]))));
-            if (i == 0) term = nh_mul(g, by_q, v);
+            sum = nh_add(g, sum, nh_add(g, nh_mul(g, by_q, v), nh_mul(g, by_v, with_accelerations(d, coordinate[k][2]))));
+            if (k == 0) term = nh_mul(g, by_q, v);
         }
         worst = differ(d, nh_add(g, sum, term), term);
     }
@@ -560,11 +716,11 @@ static double solves(const document *d, int analyzed, const char *function)
 /* Lines of the form beside that of psi1, psi2. */
 static double other_upsilon(const document *d)
 {
-    const cJSON *line;
-    double count = 0;
-    shown(d, "0.gyroscopic_form", "Upsilon_psi1,psi2", "psi1'");
-    cJSON_ArrayForEach(line, section_of(d, "0.gyroscopic_form"))
-        count += !strncmp(text_at(line, "label"), "Upsilon_", 8) && strcmp(text_at(line, "label"), "Upsilon_psi1,psi2");
+    double count = line_of(d, "1.gyroscopic_form", "Upsilon_psi1,psi2") ? 0 : INFINITY;
+    for (size_t i = 0; i < d->lines; i++)
+        if (in_section(&d->line[i], heading_of("gyroscopic_form"), 1))
+            count += !strncmp(d->line[i].text, "Upsilon_", 8) && !strncmp(strchr(d->line[i].text, ' '), " = ", 3) &&
+                     strncmp(d->line[i].text, "Upsilon_psi1,psi2 = ", 20);
     return count;
 }
 
@@ -572,8 +728,8 @@ static double other_upsilon(const document *d)
 static double basic(const document *d)
 {
     nh_dag *g = d->system->dag;
-    nh_ex a1 = coefficient(d, "1.hamiltonian", "phat_psi1", "theta_1"), a2 = coefficient(d, "1.hamiltonian", "phat_psi2", "theta_1");
-    nh_ex phi1 = parsed(d, "phi1"), xi = coefficient(d, "1.magnetic_form", "Xi_psi1,psi2", "theta_1");
+    nh_ex a1 = coefficient(d, "2.level_set", "phat_psi1", "theta_1"), a2 = coefficient(d, "2.level_set", "phat_psi2", "theta_1");
+    nh_ex phi1 = parsed(d, "phi1"), xi = coefficient(d, "2.magnetic_form", "Xi_psi1,psi2", "theta_1");
     if (nh_depends(g, a1, phi1) || nh_depends(g, a2, phi1)) return INFINITY;
     return differ(d, nh_sub(g, nh_diff(g, a2, parsed(d, "psi1")), nh_diff(g, a1, parsed(d, "psi2"))), xi);
 }
@@ -586,16 +742,40 @@ static double helmholtz(const document *d)
     return differ(d, nh_mul(g, nh_int(g, 2), slope), parsed(d, "-2*(k^2 - 1)/k^2*m*phi'*tan(phi)"));
 }
 
-#include "bench_papers_figures.h"
+#include "papers_figures.h"
+#include "papers_variation.h"
 
-#include "graph/dag.h"
-#include "graph/node.h"
+#include "papers_stages.h"
 
 /* ---- by name ---- */
 
-static void by(const row *r, const document *d, double *printed, double *meant, char *value, size_t size)
+/* (26): mu_3' of the sleigh whose group is the whole plane.  As printed only <mu_0, [omega_0, e_3]> = 0; right are <mu_1, -b_0(e_3, omega_1)>, too. */
+static void equation_26_by_stages(const document *from, double *printed, double *meant)
 {
-    const char *what = r->label;
+    static document d;
+    d = *from;
+    nh_dag *g = d.system->dag;
+    chained c = read_chain(&d);
+    nh_ex sum = nh_int(g, 0), got = parsed(&d, shown(&d, "2.stage", "mu_3'", ""));
+    for (size_t q = 0; q < c.n; q++)
+        for (size_t k = 0; k < c.n; k++) {
+            char omega[40], mu[40];
+            if (c.b[2][q][k] == 0) continue;
+            snprintf(omega, sizeof omega, "omega_%zu", q + 1);
+            snprintf(mu, sizeof mu, "mu_%zu", k + 1);
+            nh_ex turn = parsed(&d, shown(&d, "2.momenta_of_S", omega, "")), p = parsed(&d, shown(&d, "2.momenta_of_S", mu, ""));
+            sum = nh_sub(g, sum, nh_mul(g, nh_int(g, (int64_t)c.b[2][q][k]), nh_mul(g, turn, p)));
+        }
+    for (size_t p = 0; p < points; p++) /* chi_1 = e_1, chi_2 = e_3 */
+        set(&d, p, "nu_1", d.value[p][place_of_symbol(&d, "zeta1")]), set(&d, p, "nu_2", d.value[p][place_of_symbol(&d, "zeta3")]);
+    bool same = !strcmp(shown(&d, "2.nonholonomic_connection", "chi_1", "e_1"), "1") && !strcmp(shown(&d, "2.nonholonomic_connection", "chi_2", "e_3"), "1");
+    *printed = differ(&d, nh_int(g, 0), got);
+    *meant = same ? differ(&d, sum, got) : INFINITY;
+}
+
+static void by(const row *r, const document *d, double *printed, double *meant)
+{
+    const char *what = r->by;
     if (!strcmp(what, "euler")) *printed = euler(d);
     else if (!strcmp(what, "helmholtz")) *printed = helmholtz(d);
     else if (!strcmp(what, "projection")) *printed = projection(d);
@@ -607,25 +787,31 @@ static void by(const row *r, const document *d, double *printed, double *meant, 
     else if (!strcmp(what, "semiholonomic")) *printed = semiholonomic(d);
     else if (!strcmp(what, "22")) equation_22(d, printed, meant);
     else if (!strcmp(what, "24")) equation_24(d, printed, meant);
+    else if (!strcmp(what, "24 last")) *printed = last_of_24(d, true), *meant = last_of_24(d, false);
+    else if (!strcmp(what, "before 25")) *printed = before_25(d, true), *meant = before_25(d, false);
+    else if (!strcmp(what, "25")) *printed = equation_25(d);
+    else if (!strcmp(what, "26")) *printed = equation_26(d, FREE, NULL, "y", true);
+    else if (!strcmp(what, "26 nonlinear")) both_26(d, printed, meant);
+    else if (!strcmp(what, "27")) *printed = equation_27(d, true), *meant = equation_27(d, false);
     else if (!strcmp(what, "32")) equation_32(d, printed, meant);
     else if (!strcmp(what, "34")) *printed = equation_34(d);
-    else if (!strcmp(what, "33") || !strcmp(what, "37") || !strcmp(what, "38")) *printed = motion(d, atoi(what));
-    else if (!strcmp(what, "crane metric")) *printed = crane_metric();
+    else if (!strcmp(what, "33")) *printed = motion(d);
+    else if (!strcmp(what, "crane metric")) *printed = crane_metric(d);
     else if (!strcmp(what, "crane hamiltonian")) *printed = crane_hamiltonian(d);
+    else if (!strcmp(what, "crane equations")) *printed = crane_equations(d);
+    else if (!strcmp(what, "legendre")) *printed = legendre(d);
     else if (!strcmp(what, "upsilon")) *printed = upsilon(d);
     else if (!strcmp(what, "other upsilon")) *printed = other_upsilon(d);
     else if (!strcmp(what, "basic")) *printed = basic(d);
-    else if (!strcmp(what, "figure")) *printed = figure(d, atoi(r->of));
-    else if (!strcmp(what, "bracket")) stages(true, (size_t)atoi(r->of), printed, meant), *meant = INFINITY;
-    else if (!strcmp(what, "euler-poincare") && !strcmp(r->of, "whole")) stages(false, 9, printed, meant), *meant = INFINITY;
-    else if (!strcmp(what, "euler-poincare")) stages(false, 9, meant, printed);
-    else if (!strcmp(what, "direct product")) *printed = direct_product();
-    else if (!strcmp(what, "solves")) *printed = solves(document_of(D_ROLLING), r->document, r->of);
-    else if (!strcmp(what, "disk lagrangian")) *printed = differ(d, parsed(d, DISK_LAGRANGIAN), d->system->lagrangian);
-    else if (!strcmp(what, "disk") && r->of[0] == '1') *printed = vanishes(d, FIRST("r*I3")), *meant = vanishes(d, FIRST("I3"));
-    else if (!strcmp(what, "disk")) *printed = vanishes(d, r->of[0] == '2' ? SECOND : THIRD);
-    else stop("no computation", what);
-    snprintf(value, size, "differs by %.1e", *meant < *printed ? *meant : *printed);
+    else if (!strcmp(what, "figure")) *printed = figure(d, r->part);
+    else if (!strcmp(what, "stages")) by_stages(d, r->part, printed, meant);
+    else if (!strcmp(what, "euler-poincare")) *printed = euler_poincare(d, 1);
+    else if (!strcmp(what, "26 by stages")) equation_26_by_stages(d, printed, meant);
+    else if (!strcmp(what, "solves")) *printed = solves(d, r->part);
+    else if (!strcmp(what, "disk lagrangian")) *printed = differ(d, parsed(d, DISK_LAGRANGIAN), parsed(d, shown(d, "free", "L", "")));
+    else if (!strcmp(what, "disk") && r->part[0] == '1') *printed = vanishes(d, FIRST("r*I3")), *meant = vanishes(d, FIRST("I3"));
+    else if (!strcmp(what, "disk")) *printed = vanishes(d, r->part[0] == '2' ? SECOND : THIRD);
+    else if (!by_variation(r, d, printed)) stop("no computation", what);
 }
 
 #endif
