@@ -10,6 +10,7 @@
 #   make catalogue analyse every system without an analysis file, and write docs/catalogue.md
 #   make pictures  draw their thumbnails for it
 #   make papers    every numbered item of the three papers of the method, and write docs/papers.md
+#   make work_precision  draw work against error of every integrator on six systems, and write docs/work_precision.md
 #   make reductions reduce every system from STATES=50 initial states, and write docs/reductions.md
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
 #   make parameters give every system other parameter values, compare its formulas, and write docs/parameters.md (it continues where it was stopped; SEED=N)
@@ -112,7 +113,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers reductions random parameters perturbed stages fields classification house site fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized help debug coverage format compile_commands.json
+.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers work_precision reductions random parameters perturbed stages fields classification house site fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized help debug coverage format compile_commands.json
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -181,6 +182,7 @@ format:
 bench: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all benches $(BUILD)/tests/nhsym-shared
 	@sh tests/bench.sh $(BUILD) docs/performance.md
+	@$(MAKE) --no-print-directory work_precision
 
 # A page of docs/: what tests/pages says of it, and what a program prints.
 page = @{ cat tests/pages/$@.md && $(1); } >$(BUILD)/$@.md; code=$$?; mv $(BUILD)/$@.md docs/
@@ -210,6 +212,10 @@ fields: test-packages
 papers: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all benches
 	$(call page,$(BUILD)/tests/bench_papers); tail -n 1 docs/$@.md; exit $$code
+
+work_precision: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) $(BUILD)/tests/bench_work_precision
+	$(call page,$(BUILD)/tests/bench_work_precision systems docs/pictures); exit $$code
 
 reductions: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) benches

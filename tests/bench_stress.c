@@ -19,12 +19,12 @@ static size_t wrong;
 
 static void put_row(const char *command, const char *over, const nh_robustness *s, const nh_robustness_map *only)
 {
-    size_t count[NH_UNDETECTED + 1] = {0};
+    size_t count[NH_RUN_STATUSES] = {0};
     for (size_t i = 0; i < s->maps; i++)
         for (size_t j = 0; j < s->map[i].cells; j++)
             if (!only || only == &s->map[i]) count[s->map[i].cell[j].status]++;
     printf("| %s | %s |", command, over);
-    for (int k = 0; k <= NH_UNDETECTED; k++) printf(" %zu |", count[k]);
+    for (int k = 0; k < NH_RUN_STATUSES; k++) printf(" %zu |", count[k]);
     puts("");
     fflush(stdout);
     wrong += count[NH_UNDETECTED];
@@ -167,7 +167,7 @@ int main(int argc, char **argv)
     verbose = argc > 1 && !strcmp(argv[1], "-v");
     if (argc > 1 + verbose) seconds = atof(argv[1 + verbose]);
     static const char *const fits[] = {"systems/sleigh.yaml", "systems/spherical_pendulum.yaml", "systems/henon_heiles.yaml", "systems/nonholonomic_oscillator.yaml", "systems/ball_on_turntable.yaml"};
-    printf("| map | over | accurate | flagged | detected | failed | timeout | undetected |\n|---|---|---|---|---|---|---|---|\n");
+    printf("| map | over | accurate | flagged | detected | failed | timeout | undetected | not run |\n|---|---|---|---|---|---|---|---|---|\n");
     run_folder("systems");
     run_folder("systems/stress");
     for (size_t i = 0; i < sizeof fits / sizeof *fits; i++) run_fits(fits[i]);

@@ -404,7 +404,7 @@ Test(chart, stress_calls_right_only_what_is, WHOLE_ONLY)
             if (c->status == NH_ACCURATE) cr_expect(c->error <= s->accuracy, "%s at %g, %s: %g", s->map[i].name, c->at, c->method, c->error);
             if (c->status == NH_FLAGGED || c->status == NH_DETECTED || c->status == NH_FAILED) cr_expect(c->note && c->note[0], "%s at %g, %s", s->map[i].name, c->at, c->method);
         }
-    for (int k = 0; k <= NH_UNDETECTED; k++) sum += s->count[k];
+    for (int k = 0; k < NH_RUN_STATUSES; k++) sum += s->count[k];
     cr_expect(all > 100 && sum == all, "%zu, %zu", all, sum);
     /* the heading turns by pi: wherever it starts, it crosses cos phi = 0 */
     const nh_robustness_map *turned = map_of(s, "phi turned");

@@ -339,7 +339,7 @@ static size_t plots_with_the_same_ticks(const char *page, const char *caption)
     return plots;
 }
 
-/* Plots of time against error stand under one another to be compared: their axes are the same.  Beside other programs a
+/* Plots of seconds against error, of all methods and of those with a fixed step, are compared: their axes are the same.  Beside other programs a
  * short budget may end before there is a plot. */
 Test(html, plots_that_are_compared_have_the_same_axes, PLAIN_ONLY)
 {
@@ -351,8 +351,8 @@ Test(html, plots_that_are_compared_have_the_same_axes, PLAIN_ONLY)
         snprintf(line, sizeof line, "benchmark sleigh --budget %s", budgets[k]);
         cJSON *json;
         char *page = both(&p, line, NULL, &json);
-        motions = plots_with_the_same_ticks(page, "Seconds against error, ");
-        fits = plots_with_the_same_ticks(page, "Time against error, ");
+        motions = plots_with_the_same_ticks(page, "Seconds against error: ");
+        fits = plots_with_the_same_ticks(page, "Distance of the known currents against seconds.");
         cJSON_Delete(json);
         free(page);
     }

@@ -73,6 +73,7 @@ bool nh_word_among(const char *words, const char *word);
       "N motions at once, from states around the initial state")                                                       \
     X(opt_spread, "spread", required_argument, "S", "simulate", "relative spread of initial states")                   \
     X(opt_robustness, "robustness", no_argument, "", "benchmark", "maps of where the methods fail")                    \
+    X(opt_fit, "fit", no_argument, "", "benchmark", "the discrete problem alone: error by samples, degree and time")   \
     X(opt_over, "over", required_argument, "RANGES", "simulate benchmark classify scan linearize",                     \
       "values or ranges of parameters; repeatable")                                                                    \
     X(opt_shape, "shape", no_argument, "", "classify",                                                                 \
@@ -156,7 +157,7 @@ bool nh_word_among(const char *words, const char *word);
     X("csv", "reduce", "write a table of the motions: full and reduced")                                               \
     X("csv", "scan", "write the table of the points into this file, instead of scan.csv of the folder")                \
     X("method", "benchmark", "only this integrator of those that `nhsym explain methods` lists; repeatable")           \
-    X("svg", "benchmark", "write a picture: error against time")                                                       \
+    X("svg", "benchmark", "write a picture: seconds and evaluations against error")                                    \
     X("svg", "simulate", "write a picture: the columns over time, or a section")                                       \
     X("csv", "linearize", "write a table: an eigenvalue per row, or a value of --over per row")                        \
     X("svg", "linearize", "write a picture: the eigenvalues in the plane, or over a parameter")                        \

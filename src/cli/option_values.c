@@ -239,12 +239,29 @@ static bool is_numerical(int code)
            code == opt_threads || code == opt_columns || code == opt_degree;
 }
 
+/* Options without a value. */
+static bool *flag_of(nh_cli *cli, int code)
+{
+    switch (code) {
+    case opt_project: return &cli->ask.project;
+    case opt_weak: return &cli->ask.weak;
+    case opt_robustness: return &cli->ask.robustness;
+    case opt_fit: return &cli->ask.fit;
+    case opt_shape: return &cli->ask.shape;
+    case opt_scene: return &cli->ask.scene;
+    case opt_equations: return &cli->ask.equations;
+    default: return NULL;
+    }
+}
+
 #define X(name, form, writer)                                                                                          \
     case opt_##name: cli->name = value; return true;
 bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *value, nh_error *error)
 {
     const char **text = text_of(cli, code);
+    bool *flag = flag_of(cli, code);
     if (text) return *text = value, true;
+    if (flag) return *flag = true;
     if (is_numerical(code)) return nh_request_option(&cli->ask, name, value, error);
     switch (code) {
     case opt_set: return each(cli, value, "set", set_parameter, error);
@@ -254,8 +271,6 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
     case opt_initial: cli->ask.initial = joined(cli, cli->ask.initial, value); return true;
     case opt_initial_table: cli->ask.table = nh_option_value_file(value); return true;
     case opt_method: return nh_request_methods(&cli->ask, value, error);
-    case opt_project: return cli->ask.project = true;
-    case opt_weak: return cli->ask.weak = true;
     case opt_step: return positive(value, "step", &cli->ask.step, error);
     case opt_input: return each(cli, value, "input", set_input, error);
     case opt_wheel: return each(cli, value, "wheel", add_wheel, error);
@@ -266,15 +281,11 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
     case opt_accuracy: return positive(value, "accuracy", &cli->ask.accuracy, error);
     case opt_ensemble: return members(value, &cli->ask.ensemble, error);
     case opt_spread: return positive(value, "spread", &cli->ask.spread, error);
-    case opt_robustness: return cli->ask.robustness = true;
     case opt_over: return each(cli, value, "over", add_range, error);
     case opt_of: cli->ask.of = joined(cli, cli->ask.of, value); return true;
     case opt_number: return each(cli, value, "number", add_number, error);
     case opt_workers: return whole(value, "workers", 256, &cli->ask.workers, error);
     case opt_chunk: return set_chunk(cli, value, error);
-    case opt_shape: return cli->ask.shape = true;
-    case opt_scene: return cli->ask.scene = true;
-    case opt_equations: return cli->ask.equations = true;
     case opt_chain: cli->ask.chain = also(cli, cli->ask.chain, value); return true;
     case opt_inner: cli->ask.inner = also(cli, cli->ask.inner, value); return true;
     case opt_group: cli->ask.group = joined(cli, cli->ask.group, value); return true;

@@ -48,6 +48,7 @@ enum {
     opt_ensemble,
     opt_spread,
     opt_robustness,
+    opt_fit,
     opt_over,
     opt_shape,
     opt_equations,

@@ -5,22 +5,22 @@
 #include "base/progress.h"
 #include "commands/benchmark_internal.h"
 
-enum { levels = NH_BENCHMARK_LEVELS, most_halvings = 8 };
-static const double tolerances[levels] = {1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-static const double step_ratio = 4; /* factor between fixed steps of consecutive levels */
+enum { most_halvings = 8 };
+static const double middle_tolerance = 1e-8;
 /* part of a final time, no eighth of which was reached, that is tried next */
 static const double least_part = 1.0 / 64;
 static const double share_of_fits = 0.25; /* part of the budget for the discrete problem */
 
 const char *nh_run_record_status_name(nh_run_record_status status)
 {
-    static const char *const names[] = {"accurate", "flagged", "detected", "failed", "timeout", "undetected"};
+    static const char *const names[] = {"accurate", "flagged",    "detected", "failed",
+                                        "timeout",  "undetected", "not run"};
     return names[status];
 }
 
 const char *nh_run_record_status_json(nh_run_record_status status)
 {
-    static const char *const names[] = {"right", "warned", "caught", "failed", "timeout", "wrong"};
+    static const char *const names[] = {"right", "warned", "caught", "failed", "timeout", "wrong", "not run"};
     return names[status];
 }
 
@@ -212,58 +212,6 @@ static void list_elsewhere(nh_benchmark_work *c)
     }
 }
 
-/* Goes level by level, so that a short budget still gives every method its runs at loose tolerances. */
-static void measure_all(nh_benchmark_work *c)
-{
-    double span = fabs(c->out->end - c->out->begin);
-    c->grid = nh_arena_alloc(c->out->arena, c->candidates * levels * sizeof *c->grid);
-    for (size_t level = 0; level < levels; level++)
-        for (size_t i = 0; i < c->candidates; i++) {
-            nh_candidate_run *k = &c->candidate[i];
-            bool fixed = k->method && k->method->order;
-            double left = c->begun + c->budget - nh_clock();
-            if (k->given_up) continue;
-            if (k->last * step_ratio > left / 2 || left <= 0) {
-                c->out->partial = k->given_up = true;
-                continue;
-            }
-            double step = fixed ? span / (c->options.benchmark_steps * pow(step_ratio, (double)level)) : NAN;
-            nh_benchmark_work_measure(c, k, fixed ? NAN : tolerances[level], step, &c->grid[i * levels + level]);
-        }
-}
-
-/* From errors of two steps: log(e/e') / log(h/h').  NAN where an error is not above the error of the reference. */
-static double observed_order(const nh_run_record *larger, const nh_run_record *m, double known)
-{
-    const double least = 3; /* times the error of the reference */
-    bool tells = larger->method && m->order && fmin(m->error, larger->error) > least * known;
-    return tells ? log(larger->error / m->error) / log(larger->step / m->step) : NAN;
-}
-
-static void collect(nh_benchmark_work *c)
-{
-    nh_benchmark *out = c->out;
-    out->item = nh_arena_alloc(out->arena, (c->candidates * levels + 1) * sizeof *out->item);
-    for (size_t i = 0; i < c->candidates * levels; i++) {
-        nh_run_record *m = &c->grid[i];
-        double known = m->reduced ? c->formulation[c->candidate[i / levels].formulation].agreement : out->agreement;
-        if (i % levels && m->method) m->observed_order = observed_order(m - 1, m, known);
-        if (m->method) out->item[out->count++] = *m;
-    }
-    for (size_t i = 0; i < out->count; i++) {
-        nh_run_record *m = &out->item[i];
-        m->front = m->status == NH_ACCURATE && !m->reduced; /* a flagged run is no recommendation */
-        for (size_t j = 0; j < out->count && m->front; j++) {
-            const nh_run_record *o = &out->item[j];
-            /* smaller times cannot be distinguished */
-            double mine = fmax(m->error, out->agreement), other = fmax(o->error, out->agreement);
-            if (o->status == NH_ACCURATE && !o->reduced && o->seconds <= m->seconds && other <= mine &&
-                (o->seconds < m->seconds || other < mine))
-                m->front = false;
-        }
-    }
-}
-
 static bool open_formulations(nh_benchmark_work *c, nh_error *error)
 {
     const nh_simulation *s = c->out->question;
@@ -292,7 +240,7 @@ static void watch_charts(nh_benchmark_work *c)
     for (k.formulation = 0; k.formulation < c->formulations; k.formulation++) {
         nh_formulation *f = &c->formulation[k.formulation];
         if (!f->problem.guards) continue;
-        nh_motion *motion = nh_benchmark_work_counted(c, &k, tolerances[2], 0.1);
+        nh_motion *motion = nh_benchmark_work_counted(c, &k, middle_tolerance, 0.1);
         c->effort = 0;
         f->breaks = motion && nh_formulation_breaks_down(f, motion);
         nh_motion_free(motion);
@@ -409,17 +357,27 @@ nh_benchmark *nh_benchmark_run(const nh_request *request, double budget, nh_erro
 {
     nh_benchmark_work c;
     if (!open_somewhere(&c, request, budget, error)) return NULL;
-    list_candidates(&c);
-    list_elsewhere(&c);
-    nh_benchmark_reduced(&c, request);
+    c.fit_alone = request->fit;
+    if (!request->fit) {
+        list_candidates(&c);
+        list_elsewhere(&c);
+        nh_benchmark_reduced(&c, request);
+    }
     c.begun = nh_clock(); /* the budget is for measurements: the work before them is needed in any case */
-    measure_all(&c);
-    collect(&c);
+    nh_benchmark_work_measure_all(&c);
     if (!c.out->methods) { /* these warnings concern no integrator */
-        nh_benchmark_derivatives(&c.formulation[0], c.out);
-        nh_benchmark_fit(&c, budget * share_of_fits);
+        if (!request->fit) nh_benchmark_derivatives(&c.formulation[0], c.out);
+        nh_benchmark_fit(&c, request->fit ? budget : budget * share_of_fits);
     }
     c.out->partial |= nh_interrupted();
+    nh_benchmark_work_close(&c);
+    return c.out;
+}
+
+nh_benchmark *nh_benchmark_reference(const nh_request *request, double budget, nh_error *error)
+{
+    nh_benchmark_work c;
+    if (!open_somewhere(&c, request, budget, error)) return NULL;
     nh_benchmark_work_close(&c);
     return c.out;
 }

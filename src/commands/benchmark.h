@@ -8,17 +8,36 @@
 #ifndef NH_BENCHMARK_H
 #define NH_BENCHMARK_H
 
+#include "commands/benchmark_judge.h"
 #include "commands/simulate.h"
 
-typedef enum { NH_ACCURATE, NH_FLAGGED, NH_DETECTED, NH_FAILED, NH_TIMEOUT, NH_UNDETECTED } nh_run_record_status;
+/* TIMEOUT: begun, and ended by a limit; NOT_RUN: never begun. */
+typedef enum {
+    NH_ACCURATE,
+    NH_FLAGGED,
+    NH_DETECTED,
+    NH_FAILED,
+    NH_TIMEOUT,
+    NH_UNDETECTED,
+    NH_NOT_RUN,
+    NH_RUN_STATUSES
+} nh_run_record_status;
+
+enum { NH_BENCHMARK_REPEATS = 7 };
 
 typedef struct {
     const char *method, *formulation;
     double tolerance, step;    /* one of them is NAN */
     double error, worst_drift; /* NAN where they are not known */
     double *drift;             /* drift of each current */
-    double seconds;            /* the least time of some repetitions, without preparation */
+    /* median and quartiles of the processor times of the repetitions, without preparation; quartiles of fewer than
+     * three: NAN */
+    double seconds, seconds_low, seconds_high;
+    size_t repeats;
+    double time[NH_BENCHMARK_REPEATS]; /* seconds of each */
     long evaluations;
+    double floor; /* what the reference is known to; an error up to it is not told apart from the reference */
+    bool below_floor;
     /* for a method with fixed step: its theoretical order, else 0; and the order observed between this step and the
      * larger one before, NAN where the errors do not show it */
     int order;
@@ -27,9 +46,17 @@ typedef struct {
     /* a run of reduced equations, which compute less: the error is that of its own states, and it does not count for
      * `front` */
     bool reduced;
-    bool front;       /* no measured run is both faster and more accurate */
+    /* no measured run is both faster, or of fewer evaluations, and more accurate */
+    bool front, front_evaluations;
     const char *note; /* why it failed, or empty */
 } nh_run_record;
+
+/* The order of convergence of one method of fixed steps in one formulation. */
+typedef struct {
+    const char *method, *formulation;
+    int order; /* of its theory */
+    nh_judge_order judged;
+} nh_benchmark_order;
 
 /* The Jacobian of the equations of motion at the chart's probes. */
 typedef struct {
@@ -37,21 +64,27 @@ typedef struct {
     /* the largest difference from the exact Jacobian, relative to its largest entry (or 1); NAN where none could be
      * computed */
     double error;
-    double seconds;   /* seconds of one Jacobian */
+    double seconds;   /* of one Jacobian: the median of many */
     long evaluations; /* evaluations of the right-hand side (of the exact derivatives: 1) */
 } nh_derivative;
 
 /* The null space of the sampled equations, computed by one method. */
 typedef struct {
-    /* number of functions of the ansatz; of columns of the matrix (more in the symmetry route); of points */
-    size_t functions, columns, samples;
-    const char *basis, *route, *solver;
+    /* degree of the polynomials; number of functions of the ansatz; of columns of the matrix (more in the symmetry
+     * route); of points */
+    size_t degree, functions, columns, samples;
+    const char *grid, *basis, *route, *solver;
     /* number of independent columns; dimension of the null space; the same by the most careful method */
     size_t rank, dimension, wanted;
     double gap; /* gap of the spectrum above the null values */
     /* distance of the known currents from the null space, at points that were not used; NAN: none is in the span */
     double error;
-    double seconds; /* seconds for rows and solution, without sampling */
+    /* what rounding lets expect of it: epsilon sigma_max / sigma of the first value that is not null, by Wedin's
+     * theorem about the angle of singular subspaces; NAN: there is none */
+    double expected;
+    /* for rows and solution, without sampling: median and quartiles as of a run */
+    double seconds, seconds_low, seconds_high;
+    size_t repeats;
     bool good, undecided, right, front;
 } nh_fitted;
 
@@ -70,6 +103,8 @@ struct nh_benchmark {
     const char **current; /* names */
     size_t count, capacity;
     nh_run_record *item; /* ordered by method and formulation, the loosest tolerance first */
+    size_t orders;
+    nh_benchmark_order *order; /* those that were observed */
     size_t derivatives;
     nh_derivative *derivative;
     size_t fits;
@@ -87,6 +122,8 @@ struct nh_benchmark {
 /* Compares the integrators; the caller frees the result.  `budget`: seconds for the measurements.  NULL with a message
  * when no motion can be computed. */
 nh_benchmark *nh_benchmark_run(const nh_request *request, double budget, nh_error *error);
+/* Its reference alone: no run. */
+nh_benchmark *nh_benchmark_reference(const nh_request *request, double budget, nh_error *error);
 void nh_benchmark_free(nh_benchmark *comparison);
 
 /* The word of text and page, and that of JSON, which is older and stays for the scripts that read it. */

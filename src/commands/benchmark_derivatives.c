@@ -11,6 +11,7 @@
 #include "commands/benchmark_internal.h"
 
 enum { exact_derivatives, complex_step, forward, central_differences, extrapolated, kinds };
+enum { most_repeats = 100 };
 static const char *const names[kinds] = {"exact, from the graph", "complex step", "forward differences",
                                          "central differences", "central differences, extrapolated"};
 static const double tiny = 1e-100;         /* the complex step */
@@ -93,10 +94,23 @@ static double largest_difference(size_t count, const double *a, const double *ex
     return worst;
 }
 
+/* Repeats one Jacobian; the seconds of each into time[*times]. */
+static void repeat(differences *d, int kind, double t, double *J, double enough, double *time, size_t *times)
+{
+    double begin = nh_clock(), last = begin;
+    for (int i = 0; i < most_repeats && last - begin < enough; i++) {
+        jacobian(d, kind, t, J);
+        double now = nh_clock();
+        time[(*times)++] = now - last;
+        last = now;
+    }
+}
+
 static void measure(differences *d, const nh_chart *c, int kind, double *J, double *exact, nh_derivative *out)
 {
-    size_t n = d->n, done = 0;
-    *out = (nh_derivative){.method = names[kind], .seconds = INFINITY};
+    size_t n = d->n, times = 0;
+    double *time = nh_alloc_array(most_repeats * c->probes + 1, sizeof *time);
+    *out = (nh_derivative){.method = names[kind]};
     for (size_t p = 0; p < c->probes; p++) {
         const double *point = c->probe + p * c->width;
         memcpy(d->z, point + 1, n * sizeof *d->z);
@@ -105,16 +119,11 @@ static void measure(differences *d, const nh_chart *c, int kind, double *J, doub
         if (!jacobian(d, kind, point[0], J)) continue;
         out->evaluations = d->evaluations;
         out->error = fmax(out->error, largest_difference(n * n, J, exact));
-        double begin = nh_clock(), last = begin;
-        for (int i = 0; i < 100 && last - begin < enough_seconds / (double)c->probes; i++) {
-            jacobian(d, kind, point[0], J);
-            double t = nh_clock();
-            out->seconds = fmin(out->seconds, t - last);
-            last = t;
-        }
-        done++;
+        repeat(d, kind, point[0], J, enough_seconds / (double)c->probes, time, &times);
     }
-    if (!done) out->seconds = out->error = NAN;
+    out->seconds = nh_judge_spread_of(times, time).median;
+    if (!times) out->error = NAN;
+    nh_free(time);
 }
 
 static void set_sizes(differences *d, const nh_chart *c)

@@ -6,6 +6,7 @@
  *
  * time, gap, dimension, and how far the known currents are from the space that was found, at points that the fit has
  * not seen. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -19,9 +20,19 @@
 #include "graph/node.h"
 #include "search/spans.h"
 
-enum { most_levels = 6, densities = 3, ways = 8, heldout_points = 400, most_field_columns = 400, most_repeats = 3 };
-static const double density[densities] = {1.5, 4, 10}; /* sample points per column */
-static const double in_span = 1e-10;                   /* distance of a known current from all columns, at rounding */
+enum {
+    most_levels = 6,
+    densities = 5,
+    usual_first = 1,
+    usual_end = 4,
+    ways = 8,
+    heldout_points = 400,
+    most_field_columns = 400,
+    most_repeats = 5
+};
+/* sample points per column: all of them where the discrete problem alone is asked for */
+static const double density[densities] = {1.1, 1.5, 4, 10, 25};
+static const double in_span = 1e-10; /* distance of a known current from all columns, at rounding */
 static const double enough_seconds = 0.02;
 
 typedef struct {
@@ -33,7 +44,8 @@ typedef struct {
     size_t known;  /* known currents in the span of the ansatz */
     double *value; /* their values at the held-out points, heldout x known */
     double deadline;
-    size_t wanted[2]; /* dimension by route: the columns of the symmetry route span more */
+    size_t degree, first, end; /* those of the densities that are tried */
+    size_t wanted[2];          /* dimension by route: the columns of the symmetry route span more */
 } fit;
 
 /* ---- one ansatz, in two bases ---- */
@@ -98,7 +110,7 @@ static bool assemble_and_solve(fit *f, const nh_ansatz *a, const nh_points *poin
                          : 0;
         if (!s->columns || points->count * (f->model->n + 1) < s->columns + 16) return false;
     }
-    double begin = nh_clock();
+    double begin = nh_clock_of_process();
     nh_equations *equations = nh_equations_create(s->columns, 1);
     if (symmetry) {
         nh_rows_symmetry(f->model, s->columns, column, points, equations);
@@ -109,7 +121,7 @@ static bool assemble_and_solve(fit *f, const nh_ansatz *a, const nh_points *poin
     }
     s->space =
         plain ? nh_nullspace_plain(equations, &limits, &ignored) : nh_nullspace_solve(equations, &limits, &ignored);
-    s->seconds = nh_clock() - begin;
+    s->seconds = nh_clock_of_process() - begin;
     nh_equations_free(equations);
     if (symmetry) {
         nh_free(s->e);
@@ -126,6 +138,8 @@ static void judge(fit *f, const solved *s, nh_fitted *out)
     out->rank = n->rank;
     out->dimension = n->dimension;
     out->gap = n->gap;
+    if (n->dimension && n->dimension < n->rank)
+        out->expected = DBL_EPSILON * n->next_left_scale / n->spectrum[n->dimension];
     out->undecided = n->verdict == NH_UNDECIDED;
     double *found = nh_span_values(f->model, f->heldout, s->columns, s->e, n->dimension, n->vector);
     out->error = f->known ? nh_span_distance(f->heldout->count, n->dimension, found, f->known, f->value) : NAN;
@@ -139,25 +153,30 @@ static void measure(fit *f, size_t points_wanted, bool chebyshev, bool symmetry,
     nh_error_clear(&ignored);
     nh_points *points = nh_points_create(f->model, points_wanted, 1, (uint64_t)f->options.seed, &ignored);
     double begin = nh_clock();
-    *out = (nh_fitted){.functions = a->columns,
+    *out = (nh_fitted){.degree = f->degree,
+                       .functions = a->columns,
                        .samples = points_wanted,
+                       .grid = "sobol",
                        .basis = chebyshev ? "Chebyshev" : "monomials",
                        .route = symmetry ? "symmetry" : "current",
                        .solver = plain ? "plain SVD" : "generalized",
-                       .seconds = INFINITY,
-                       .error = NAN};
+                       .error = NAN,
+                       .expected = NAN};
+    double time[most_repeats];
     for (int i = 0; points && i < most_repeats && !nh_interrupted() && (i == 0 || nh_clock() - begin < enough_seconds);
          i++) {
         solved s = {0};
         bool good = assemble_and_solve(f, a, points, symmetry, plain, &s);
         if (good && i == 0) judge(f, &s, out);
-        if (good) out->seconds = fmin(out->seconds, s.seconds);
+        if (good) time[out->repeats++] = s.seconds;
         out->good |= good;
         nh_free(s.e);
         nh_nullspace_free(s.space);
         if (!good) break;
     }
     nh_points_free(points);
+    nh_judge_spread s = nh_judge_spread_of(out->repeats, time);
+    out->seconds = s.median, out->seconds_low = s.low, out->seconds_high = s.high;
 }
 
 /* ---- all of it ---- */
@@ -170,15 +189,15 @@ static void measure_level(fit *f)
     nh_benchmark *out = f->c->out;
     size_t n = f->cheb->columns;
     bool known[2] = {false, false};
-    for (size_t d = densities; d-- > 0;) {
+    for (size_t d = f->end; d-- > f->first;) {
         size_t points = (size_t)ceil(density[d] * (double)n) + 16;
         for (int way = 0; way < ways && !past(f); way++) {
-            if ((way & 4) && d + 1 < densities && !known[1]) continue; /* too large for this route */
+            if ((way & 4) && d + 1 < f->end && !known[1]) continue; /* too large for this route */
             nh_fitted *m = &out->fit[out->fits];
             measure(f, points, !(way & 1), way & 4, way & 2, m);
             if (!m->good) continue;
             out->fits++;
-            bool symmetry = way & 4, careful = d + 1 == densities && !(way & 3);
+            bool symmetry = way & 4, careful = d + 1 == f->end && !(way & 3);
             if (careful) f->wanted[symmetry] = m->dimension, known[symmetry] = true;
             m->wanted = f->wanted[symmetry];
             m->right =
@@ -258,13 +277,15 @@ void nh_benchmark_fit(nh_benchmark_work *c, double seconds)
     nh_error_clear(&ignored);
     fit f = {.c = c, .model = out->question->model, .options = c->options, .deadline = nh_clock() + seconds};
     uint64_t seed = (uint64_t)f.options.seed;
+    f.first = c->fit_alone ? 0 : usual_first;
+    f.end = c->fit_alone ? densities : usual_end;
     nh_ex *letter = nh_alloc_array(3 * f.model->m + 1, sizeof *letter);
     size_t letters = nh_fit_letters(f.model, letter);
     out->fit = nh_arena_alloc(out->arena, (most_levels * densities * ways + 1) * sizeof *out->fit);
     f.ranges = nh_points_create(f.model, heldout_points, 1, seed, &ignored);
     f.heldout = nh_points_create(f.model, 2 * (size_t)f.options.benchmark_columns, 1, seed + 77, &ignored);
     for (size_t degree = 1; f.ranges && f.heldout && degree <= most_levels && !past(&f); degree++)
-        if (!measure_degree(&f, letters, letter, degree)) break;
+        if (f.degree = degree, !measure_degree(&f, letters, letter, degree)) break;
     mark_front(out);
     nh_points_free(f.ranges);
     nh_points_free(f.heldout);

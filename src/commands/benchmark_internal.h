@@ -104,13 +104,14 @@ typedef struct {
     size_t held_currents;     /* currents that a projection preserves */
     nh_ex *held;
     nh_candidate_run candidate[NH_BENCHMARK_CANDIDATES];
-    nh_run_record *grid; /* candidates x levels; method NULL: not run */
+    nh_run_record *grid; /* candidates x levels */
     double begun, budget, deadline, absolute;
     /* limit of effort of a motion that decides what is compared, in place of the deadline: the same on every machine;
      * 0: the deadline */
     double effort;
     nh_options options;
-    bool project, once; /* runs once: no repetitions, because the time does not matter; steps are limited instead */
+    bool project, once; /* the time does not matter; steps are limited instead */
+    bool fit_alone;     /* the discrete problem alone, with more numbers of samples */
     size_t reached;     /* outputs of the longest run of the reference */
     bool hurried;       /* the reference ran out of time */
 } nh_benchmark_work;
@@ -129,9 +130,16 @@ void nh_benchmark_work_no_reference(nh_benchmark_work *bench);
 /* Adds a candidate; or a method that is not used, with the reason. */
 void nh_benchmark_work_add(nh_benchmark_work *bench, const nh_method *method, size_t formulation);
 void nh_benchmark_work_refuse(nh_benchmark_work *bench, const char *method, const char *why);
-/* Runs one motion, with repetitions for its time unless bench->once. */
+/* Runs one motion. */
 void nh_benchmark_work_measure(nh_benchmark_work *bench, nh_candidate_run *candidate, double tolerance, double step,
                                nh_run_record *measured);
+/* The record of a motion that is not run. */
+void nh_benchmark_work_leave_out(nh_benchmark_work *bench, const nh_candidate_run *candidate, double tolerance,
+                                 double step, const char *why, nh_run_record *measured);
+/* Runs it again, for its time alone. */
+void nh_benchmark_work_repeat(nh_benchmark_work *bench, const nh_candidate_run *candidate, nh_run_record *measured);
+/* All candidates at all levels, and again for their times while the budget lasts; then what is said of them. */
+void nh_benchmark_work_measure_all(nh_benchmark_work *bench);
 /* Runs one motion that decides what is compared: it is limited by counted work, which corresponds to a part of the
  * budget.  NULL: the method refuses it. */
 nh_motion *nh_benchmark_work_counted(nh_benchmark_work *bench, const nh_candidate_run *candidate, double tolerance,

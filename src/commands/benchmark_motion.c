@@ -5,9 +5,6 @@
 #include "base/progress.h"
 #include "commands/benchmark_internal.h"
 
-enum { most_repeats = 7 };
-static const double enough_seconds = 3e-3; /* repetitions stop after so many seconds */
-
 static bool late(void *context) { return nh_interrupted() || nh_clock() > ((nh_benchmark_work *)context)->deadline; }
 
 /* A limit of steps gives the same result on a busy machine. */
@@ -99,47 +96,72 @@ static void judge(nh_benchmark_work *c, const nh_candidate_run *k, nh_motion *mo
     nh_free(states);
 }
 
-/* The least time of some repetitions; all other results are those of the first run. */
+static nh_run_record begun(const nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double step)
+{
+    const nh_formulation *f = &c->formulation[k->formulation];
+    return (nh_run_record){.method = !k->method     ? k->index == 2 ? "IDA, index 2" : "IDA, index 1"
+                                     : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name)
+                                                    : k->method->name,
+                           .formulation = k->method ? f->name : "all coordinates, multipliers",
+                           .order = k->method ? k->method->order : 0,
+                           .observed_order = NAN,
+                           .tolerance = tolerance,
+                           .step = step,
+                           .reduced = f->reduced != NULL,
+                           .floor = f->reduced ? f->agreement : c->out->agreement,
+                           .error = NAN,
+                           .worst_drift = NAN,
+                           .seconds = NAN,
+                           .seconds_low = NAN,
+                           .seconds_high = NAN,
+                           .note = "",
+                           .status = NH_FAILED};
+}
+
+void nh_benchmark_work_leave_out(nh_benchmark_work *c, const nh_candidate_run *k, double tolerance, double step,
+                                 const char *why, nh_run_record *m)
+{
+    *m = begun(c, k, tolerance, step);
+    m->status = NH_NOT_RUN;
+    m->note = why;
+}
+
+static double set_deadline(nh_benchmark_work *c)
+{
+    double now = nh_clock(), left = c->begun + c->budget - now;
+    c->deadline = now + fmax(left / 4, 0.01);
+    return now;
+}
+
 void nh_benchmark_work_measure(nh_benchmark_work *c, nh_candidate_run *k, double tolerance, double step,
                                nh_run_record *m)
 {
     nh_error error;
     nh_error_clear(&error);
-    double begin = nh_clock(), left = c->begun + c->budget - begin;
-    c->deadline = begin + fmax(left / 4, 0.01);
-    nh_progress(k->method       ? k->method->name
-                : k->index == 2 ? "IDA, index 2"
-                                : "IDA, index 1",
-                (nh_clock() - c->begun) / c->budget);
-    *m =
-        (nh_run_record){.method = !k->method     ? k->index == 2 ? "IDA, index 2" : "IDA, index 1"
-                                  : k->projected ? nh_arena_printf(c->out->arena, "%s, projected", k->method->name)
-                                                 : k->method->name,
-                        .formulation = k->method ? c->formulation[k->formulation].name : "all coordinates, multipliers",
-                        .order = k->method ? k->method->order : 0,
-                        .observed_order = NAN,
-                        .tolerance = tolerance,
-                        .step = step,
-                        .reduced = c->formulation[k->formulation].reduced != NULL,
-                        .error = NAN,
-                        .worst_drift = NAN,
-                        .seconds = INFINITY,
-                        .note = "",
-                        .status = NH_FAILED};
-    for (int i = 0; i < (c->once ? 1 : most_repeats) && (i == 0 || (m->status != NH_FAILED && m->status != NH_TIMEOUT &&
-                                                                    nh_clock() - begin < enough_seconds));
-         i++) {
-        nh_motion *motion = integrate(c, k, tolerance, step, &error);
-        if (motion && i == 0) judge(c, k, motion, m);
-        if (motion) m->seconds = fmin(m->seconds, motion->seconds);
-        nh_motion_free(motion);
-    }
-    if (!isfinite(m->seconds)) {
-        m->seconds = NAN;
+    double begin = set_deadline(c);
+    *m = begun(c, k, tolerance, step);
+    nh_progress(m->method, (begin - c->begun) / c->budget);
+    nh_motion *motion = integrate(c, k, tolerance, step, &error);
+    if (motion) {
+        judge(c, k, motion, m);
+        m->seconds = m->time[m->repeats++] = motion->processor;
+        m->below_floor = nh_judge_below(m->error, m->floor);
+    } else {
         m->note = nh_arena_strdup(c->out->arena, error.what);
     }
+    nh_motion_free(motion);
     k->last = nh_clock() - begin;
     k->given_up = m->status == NH_TIMEOUT; /* a smaller step or tolerance may still succeed after a failure */
+}
+
+void nh_benchmark_work_repeat(nh_benchmark_work *c, const nh_candidate_run *k, nh_run_record *m)
+{
+    nh_error ignored;
+    nh_error_clear(&ignored);
+    set_deadline(c);
+    nh_motion *motion = integrate(c, k, m->tolerance, m->step, &ignored);
+    if (motion && motion->complete) m->time[m->repeats++] = motion->processor;
+    nh_motion_free(motion);
 }
 
 static const double units = 1e9; /* units of effort per second */

@@ -79,6 +79,7 @@ typedef struct nh_request {
     size_t overs;
     bool shape;      /* of classify: coefficients that do not depend on cyclic coordinates */
     bool robustness; /* of benchmark: maps */
+    bool fit;        /* of benchmark: the discrete problem alone */
     double budget;   /* seconds */
     /* of scan */
     size_t numbers, chunk, chunks, workers;

@@ -18,6 +18,8 @@ static const double longer[longer_times] = {1, 10, 100, 1000}, absolute[] = {1e-
                     parameter[] = {1e-9, 1e-6, 1e-3, 1e-1, 10, 1e3, 1e6};
 static const double least_cell = 0.02; /* least number of seconds for a value */
 
+const char *const nh_robustness_no_time = "the budget had no time for it";
+
 bool nh_robustness_late(const nh_robustness_work *w) { return nh_interrupted() || nh_clock() > w->begun + w->budget; }
 
 /* ---- one cell ---- */
@@ -73,6 +75,7 @@ static void try_method(nh_benchmark_work *b, const char *name, bool in_coordinat
     nh_run_record m;
     const char *refused = nh_method_refused(k.method, b->formulation[k.formulation].programs);
     if (refused) {
+        cell->status = NH_NOT_RUN;
         cell->note = refused;
         return;
     }
@@ -89,6 +92,17 @@ void nh_robustness_try(nh_robustness_work *w, const nh_request *request, double 
     double left = w->begun + w->budget - nh_clock(),
            budget = fmax(left / (double)(w->values_left ? w->values_left : 1), least_cell);
     nh_benchmark_work b;
+    if (nh_robustness_late(w)) {
+        for (size_t i = 0; i < method_count; i++)
+            cell[i] = (nh_robustness_cell){.at = cell[i].at,
+                                           .second_at = cell[i].second_at,
+                                           .method = w->step > 0 ? stepping[i] : methods[i],
+                                           .error = NAN,
+                                           .drift = NAN,
+                                           .status = NH_NOT_RUN,
+                                           .note = nh_robustness_no_time};
+        return;
+    }
     bool opened = nh_benchmark_work_open_once(&b, request, coordinate, turn, budget, &error);
     /* otherwise the two references say little about which runs are accurate */
     bool reference =
@@ -259,9 +273,11 @@ void nh_robustness_free(nh_robustness *maps)
 nh_benchmark *nh_robustness_benchmark(const nh_request *request, const char *over, double seconds, nh_error *error)
 {
     static const double usual = 5, longest = 300; /* seconds: of runs; of maps, which are limited by steps */
-    nh_benchmark *b = nh_benchmark_run(request, seconds > 0 ? seconds / 2 : usual, error);
+    double share = seconds > 0 && !over ? seconds / 2 : seconds;
+    nh_benchmark *b = over ? nh_benchmark_reference(request, share > 0 ? share : usual, error)
+                           : nh_benchmark_run(request, share > 0 ? share : usual, error);
     if (!b || nh_interrupted()) return b;
-    nh_robustness *maps = nh_robustness_create(request, over, seconds > 0 ? seconds / 2 : longest, error);
+    nh_robustness *maps = nh_robustness_create(request, over, share > 0 ? share : longest, error);
     if (!maps) return nh_benchmark_free(b), NULL;
     b->maps = maps;
     b->of_maps = maps->arena;

@@ -5,8 +5,9 @@
  *     flagged     within it, and a safeguard triggered
  *     detected    not within it, and a safeguard says so
  *     failed      the integrator gave up, or the model is refused, with a reason
- *     timeout     neither within its time
+ *     timeout     begun, and neither within its time
  *     undetected  not within the accuracy, and no safeguard triggered
+ *     not run     the method refuses this system, or the budget was used up before
  *
  * Safeguards: the pivot of the chart, the drift of every known current, and a second run at a tenth of the tolerance.
  *
@@ -44,7 +45,7 @@ typedef struct nh_robustness {
     double tolerance, accuracy; /* of every run; and the error that counts as accurate */
     size_t maps;
     nh_robustness_map *map;
-    size_t count[NH_UNDETECTED + 1]; /* number of cells per status */
+    size_t count[NH_RUN_STATUSES]; /* number of cells per status */
 } nh_robustness;
 
 /* `over`: "NAME=LOW:HIGH" or "NAME=LOW:HIGH:VALUES", or two of them with a comma between: one map over these
@@ -55,8 +56,8 @@ typedef struct nh_robustness {
 nh_robustness *nh_robustness_create(const nh_request *request, const char *over, double budget, nh_error *error);
 void nh_robustness_free(nh_robustness *maps);
 
-/* A comparison of methods that includes these maps, each for half of the seconds; 0: 5 s for the methods, and the maps
- * are limited by steps, so that they are the same on a busy machine.  After an interruption there may be no maps. */
+/* A comparison of methods that includes these maps, each for half of the seconds; with `over` that map alone, without
+ * the comparison, which is not what was asked.  0: 5 s for the methods, and the maps are limited by steps, so that they are the same on a busy machine.  After an interruption there may be no maps. */
 nh_benchmark *nh_robustness_benchmark(const nh_request *request, const char *over, double seconds, nh_error *error);
 
 #endif

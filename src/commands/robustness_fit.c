@@ -242,8 +242,8 @@ static nh_robustness_map *open_map(fit *f, const char *name, const char *axis, c
                                             .method = way_name[i % (size_t)ways],
                                             .error = NAN,
                                             .drift = NAN,
-                                            .status = NH_TIMEOUT,
-                                            .note = "there was no time for it"};
+                                            .status = NH_NOT_RUN,
+                                            .note = nh_robustness_no_time};
     return map;
 }
 

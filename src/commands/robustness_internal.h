@@ -30,6 +30,7 @@ bool nh_robustness_axes(nh_robustness_work *work, const nh_benchmark_work *plain
 bool nh_robustness_named(nh_robustness_work *work, const nh_benchmark_work *plain, const nh_named_map *map,
                          nh_error *error);
 /* Is the time of all maps over? */
+extern const char *const nh_robustness_no_time; /* the note of what is not run */
 bool nh_robustness_late(const nh_robustness_work *work);
 /* The maps of the discrete problem: clustered and noisy samples, an ansatz at the edge of dependence, frequencies that
    nearly coincide. */

@@ -21,6 +21,54 @@ size_t nh_benchmark_warnings(const nh_benchmark *c, const char *out[NH_BENCHMARK
     return n;
 }
 
+/* The words of the judge without their comma. */
+const char *nh_benchmark_order_why(const nh_benchmark_order *o)
+{
+    const char *why = nh_judge_order_why(o->judged.reason);
+    return why + strspn(why, ", ");
+}
+
+void nh_benchmark_put_reference(const nh_benchmark *c, nh_text *out)
+{
+    if (!c->count) {
+        nh_text_add(out, c->fits ? "No motion was compared: the discrete problem alone was asked for."
+                                 : "No motion was compared: a map alone was asked for.");
+        return;
+    }
+    nh_text_addf(
+        out,
+        "One motion, t = %.6g to %.6g. Reference: %s; %s agrees to %.1g, so that smaller errors (the grey band) are "
+        "not told apart from it. Times are those of this machine; evaluations are the same on every one.",
+        c->begin, c->end, c->reference, c->second, c->agreement);
+}
+
+/* "midpoint, order 2: observed 0.6, because .."; the names of some methods end with their order; the first formulation
+ * is not named. */
+static void put_order(const nh_benchmark *c, const nh_benchmark_order *o, nh_text *out)
+{
+    nh_text_add(out, o->method);
+    if (!strstr(o->method, ", order ")) nh_text_addf(out, ", order %d", o->order);
+    if (strcmp(o->formulation, c->item[0].formulation)) nh_text_addf(out, ", in %s", o->formulation);
+    nh_text_addf(out, ": observed %.2g%s.", o->judged.observed, nh_judge_order_why(o->judged.reason));
+}
+
+bool nh_benchmark_put_orders(const nh_benchmark *c, size_t most, nh_text *out)
+{
+    size_t told = 0, others = 0;
+    for (size_t i = 0; i < c->orders; i++) {
+        const nh_benchmark_order *o = &c->order[i];
+        if (o->judged.reason == NH_ORDER_EXPECTED) continue;
+        if (told == most) {
+            others++;
+            continue;
+        }
+        if (told++) nh_text_add(out, " ");
+        put_order(c, o, out);
+    }
+    if (others) nh_text_addf(out, " And %zu more.", others);
+    return told > 0;
+}
+
 const char *nh_fitted_word(const nh_fitted *m)
 {
     if (m->undecided) return "undecided";
@@ -53,7 +101,7 @@ static void put_field(nh_text *out, double value)
 void nh_benchmark_csv(const nh_benchmark *c, nh_text *out)
 {
     nh_text_add(out, "method,formulation,tolerance,step,error,drift,seconds,evaluations,order,observed_order,status,"
-                     "reduced,front,note\n");
+                     "reduced,front,note,seconds_low,seconds_high,repeats,floor,below_floor,front_evaluations\n");
     for (size_t i = 0; i < c->count; i++) {
         const nh_run_record *m = &c->item[i];
         const double number[] = {m->tolerance,
@@ -70,7 +118,11 @@ void nh_benchmark_csv(const nh_benchmark *c, nh_text *out)
         for (size_t k = 0; k < sizeof number / sizeof *number; k++) put_field(out, number[k]);
         nh_text_addf(out, ",%s,%d,%d,", nh_run_record_status_json(m->status), m->reduced, m->front);
         if (m->note && m->note[0]) nh_escape_csv(m->note, out);
-        nh_text_add(out, "\n");
+        put_field(out, m->seconds_low);
+        put_field(out, m->seconds_high);
+        nh_text_addf(out, ",%zu", m->repeats);
+        put_field(out, m->floor);
+        nh_text_addf(out, ",%d,%d\n", m->below_floor, m->front_evaluations);
     }
 }
 
@@ -89,13 +141,34 @@ static void put_item(const nh_benchmark *c, const nh_run_record *m, nh_json *lis
     for (size_t k = 0; k < c->currents && m->drift && isfinite(m->error); k++)
         if (!isnan(m->drift[k])) nh_json_put_number(drifts, c->current[k], m->drift[k]);
     nh_json_put_number(item, "seconds", m->seconds);
+    nh_json_put_number(item, "seconds_low", m->seconds_low);
+    nh_json_put_number(item, "seconds_high", m->seconds_high);
+    nh_json_put_number(item, "repeats", (double)m->repeats);
     nh_json_put_number(item, "evaluations", (double)m->evaluations);
+    nh_json_put_number(item, "floor", m->floor);
+    nh_json_put_bool(item, "below_floor", m->below_floor);
     nh_json_put_number(item, "order", m->order ? m->order : NAN);
     nh_json_put_number(item, "observed_order", m->observed_order);
     nh_json_put_text(item, "status", nh_run_record_status_json(m->status));
     nh_json_put_bool(item, "reduced", m->reduced);
     nh_json_put_bool(item, "front", m->front);
+    nh_json_put_bool(item, "front_evaluations", m->front_evaluations);
     nh_json_put_text(item, "note", m->note ? m->note : "");
+}
+
+static void put_orders(const nh_benchmark *c, nh_json *root)
+{
+    nh_json *list = nh_json_put_array(root, "orders");
+    for (size_t i = 0; i < c->orders; i++) {
+        const nh_benchmark_order *o = &c->order[i];
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_text(item, "method", o->method);
+        nh_json_put_text(item, "formulation", o->formulation);
+        nh_json_put_number(item, "order", o->order);
+        nh_json_put_number(item, "observed", o->judged.observed);
+        nh_json_put_bool(item, "as_expected", o->judged.reason == NH_ORDER_EXPECTED);
+        nh_json_put_text(item, "why", nh_benchmark_order_why(o));
+    }
 }
 
 static void put_fits(const nh_benchmark *c, nh_json *root)
@@ -104,9 +177,11 @@ static void put_fits(const nh_benchmark *c, nh_json *root)
     for (size_t i = 0; i < c->fits; i++) {
         const nh_fitted *m = &c->fit[i];
         nh_json *item = nh_json_add_object(list);
+        nh_json_put_number(item, "degree", (double)m->degree);
         nh_json_put_number(item, "functions", (double)m->functions);
         nh_json_put_number(item, "columns", (double)m->columns);
         nh_json_put_number(item, "samples", (double)m->samples);
+        nh_json_put_text(item, "grid", m->grid);
         nh_json_put_text(item, "basis", m->basis);
         nh_json_put_text(item, "route", m->route);
         nh_json_put_text(item, "solver", m->solver);
@@ -115,7 +190,11 @@ static void put_fits(const nh_benchmark *c, nh_json *root)
         nh_json_put_number(item, "wanted", (double)m->wanted);
         nh_json_put_number(item, "gap", m->gap);
         nh_json_put_number(item, "error", m->error);
+        nh_json_put_number(item, "expected", m->expected);
         nh_json_put_number(item, "seconds", m->seconds);
+        nh_json_put_number(item, "seconds_low", m->seconds_low);
+        nh_json_put_number(item, "seconds_high", m->seconds_high);
+        nh_json_put_number(item, "repeats", (double)m->repeats);
         const char *word = nh_fitted_word(m);
         nh_json_put_text(item, "status", !strcmp(word, "accurate") ? "right" : word);
         nh_json_put_bool(item, "front", m->front);
@@ -157,6 +236,7 @@ char *nh_benchmark_json(const nh_benchmark *c, const nh_robustness *s, const nh_
     nh_json_put_numbers(root, "goals", NH_BENCHMARK_GOALS, nh_benchmark_goal, 1);
     nh_json *motion = nh_json_put_array(root, "motion");
     for (size_t i = 0; i < c->count; i++) put_item(c, &c->item[i], motion);
+    put_orders(c, root);
     nh_json *derivatives = nh_json_put_array(root, "derivatives");
     for (size_t i = 0; i < c->derivatives; i++) {
         nh_json *item = nh_json_add_object(derivatives);
@@ -195,7 +275,8 @@ static void headline(const nh_benchmark *c, bool colour, nh_text *out)
     nh_text words;
     nh_text_init(&words);
     if (best)
-        nh_text_addf(&words, "Fastest with an error below a millionth: %s, %.2g seconds.", best->method, best->seconds);
+        nh_text_addf(&words, "Fastest with an error below a millionth: %s, %.2g seconds (median).", best->method,
+                     best->seconds);
     else nh_text_add(&words, "No method came below an error of a millionth.");
     nh_text_addf(&words,
                  " One motion, t = %.6g to %.6g, measured on this machine; errors below %.1g cannot be "
@@ -233,18 +314,27 @@ static void fastest(const nh_benchmark *c, nh_text *out)
 /* How many runs each method that fails has, by what happened. */
 static void failures(const nh_benchmark *c, nh_text *out)
 {
-    size_t n[NH_UNDETECTED + 1] = {0};
+    size_t n[NH_RUN_STATUSES] = {0};
     nh_text words;
     nh_text_init(&words);
     for (size_t i = 0; i < c->count; i++) n[c->item[i].status]++;
     nh_text_addf(&words, "%zu runs: ", c->count);
-    for (size_t k = 0, told = 0; k <= NH_UNDETECTED; k++)
+    for (size_t k = 0, told = 0; k < NH_RUN_STATUSES; k++)
         if (n[k]) nh_text_addf(&words, "%s%zu %s", told++ ? ", " : "", n[k], nh_run_record_status_name(k));
     nh_text_add(&words, ". ");
     if (n[NH_FLAGGED] + n[NH_DETECTED])
         nh_text_add(&words, "Flagged: accurate, but a check warned; detected: not accurate, and a check said so. ");
     if (n[NH_UNDETECTED]) nh_text_add(&words, "Undetected: not accurate, and no check said so. ");
+    if (n[NH_NOT_RUN]) nh_text_add(&words, "Not run: the budget was used up, or the run before it had no time. ");
     nh_text_add(out, "\n");
+    nh_screen_say(out, 0, &words);
+}
+
+static void put_orders_on_screen(const nh_benchmark *c, nh_text *out)
+{
+    nh_text words;
+    nh_text_init(&words);
+    nh_benchmark_put_orders(c, 1, &words);
     nh_screen_say(out, 0, &words);
 }
 
@@ -254,7 +344,7 @@ static void where_they_fail(const nh_robustness *s, nh_text *out)
     nh_text_init(&words);
     if (!s) return;
     nh_text_addf(&words, "Made worse in %zu way%s, at tolerance %.1g:", s->maps, s->maps == 1 ? "" : "s", s->tolerance);
-    for (size_t k = 0; k <= NH_UNDETECTED; k++)
+    for (size_t k = 0; k < NH_RUN_STATUSES; k++)
         nh_text_addf(&words, "%s %zu %s", k ? "," : "", s->count[k], nh_run_record_status_name(k));
     nh_text_add(&words, ".");
     nh_screen_say(out, 0, &words);
@@ -266,6 +356,7 @@ void nh_benchmark_write_answer(const nh_benchmark *c, const nh_robustness *s, bo
     headline(c, colour, out);
     fastest(c, out);
     failures(c, out);
+    put_orders_on_screen(c, out);
     where_they_fail(s, out);
     for (size_t i = 0, n = nh_benchmark_warnings(c, warning); i < n; i++)
         nh_screen_paragraph(0, 2, nh_arena_printf(c->arena, "Warning: %s", warning[i]), out);
@@ -273,7 +364,7 @@ void nh_benchmark_write_answer(const nh_benchmark *c, const nh_robustness *s, bo
         nh_screen_paragraph(
             0, 2, "Warning: the budget ended before every method had all its runs; --budget allows more", out);
     nh_screen_more(out, "all methods and runs, orders, derivatives, where methods fail",
-                   "--svg FILE  time against error");
+                   "--svg FILE  seconds and evaluations against error");
 }
 
 /* ---- where methods fail ---- */
@@ -345,11 +436,13 @@ void nh_benchmark_write_robustness(nh_pen *p, const nh_robustness *s)
 {
     if (!s) return;
     nh_pen_section(p, "robustness", "Where methods fail");
-    nh_pen_words(p,
-                 "At tolerance %.1g; an error below %.1g is accurate. Flagged: accurate, and a safeguard triggered; "
-                 "detected: not accurate, and a safeguard says so; "
-                 "failed: ended early, with a reason; timeout; undetected: not accurate, and no safeguard triggered.",
-                 s->tolerance, s->accuracy);
+    nh_pen_words(
+        p,
+        "At tolerance %.1g; an error below %.1g is accurate. Flagged: accurate, and a safeguard triggered; "
+        "detected: not accurate, and a safeguard says so; "
+        "failed: ended early, with a reason; timeout: begun, and ended by a limit; undetected: not accurate, and no "
+        "safeguard triggered; not run: refused by the method, or the budget was used up.",
+        s->tolerance, s->accuracy);
     for (size_t i = 0; i < s->maps; i++) {
         map_table(p, &s->map[i]);
         if (p->ink->brief) put_notes(p, &s->map[i]);
@@ -357,7 +450,7 @@ void nh_benchmark_write_robustness(nh_pen *p, const nh_robustness *s)
     if (!p->ink->brief) return; /* on a page each cell has its colour */
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     nh_pen_say(p, "In all:");
-    for (int k = 0; k <= NH_UNDETECTED; k++)
+    for (int k = 0; k < NH_RUN_STATUSES; k++)
         nh_pen_say(p, "%s %zu %s", k ? "," : "", s->count[k], nh_run_record_status_name((nh_run_record_status)k));
     nh_pen_close(p, NH_PEN_WORDS);
 }

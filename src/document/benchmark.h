@@ -16,8 +16,11 @@ void nh_benchmark_csv(const nh_benchmark *comparison, nh_text *out);
  * too, and flagged ones. */
 const nh_run_record *nh_benchmark_fastest(const nh_benchmark *comparison, size_t from, size_t to, double below,
                                           bool reduced);
-/* A stand-alone SVG file: time against error of every run, one line per method and formulation, with the front of the
- * best runs. */
+/* A sentence for each observed order that is not as expected, at most so many, and how many more there are; false:
+ * none. */
+bool nh_benchmark_put_orders(const nh_benchmark *comparison, size_t most, nh_text *out);
+/* A stand-alone SVG file: work against error of motions, of reduced equations and of the discrete problem, each as plots
+ * of at most six methods with the front of the best runs. */
 void nh_benchmark_svg(const nh_benchmark *comparison, nh_text *out);
 
 #endif

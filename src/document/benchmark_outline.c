@@ -8,16 +8,55 @@
 #include "document/benchmark_internal.h"
 #include "document/screen.h"
 
-enum { most_lines = 35 }; /* colours, times dashes */
-
 static bool same_line(const nh_run_record *a, const nh_run_record *b)
 {
     return !strcmp(a->method, b->method) && !strcmp(a->formulation, b->formulation);
 }
 
-static bool shown(const nh_run_record *m) { return m->status <= NH_FLAGGED && isfinite(m->error) && m->seconds > 0; }
-
 /* ---- the answer ---- */
+
+/* A map alone, without a comparison of methods. */
+static void answer_of_maps(nh_pen *p, const nh_benchmark *c, const nh_robustness *s)
+{
+    size_t all = 0;
+    for (size_t k = 0; k < NH_RUN_STATUSES; k++) all += s->count[k];
+    nh_pen_open(p, NH_PEN_ANSWER, s->count[NH_UNDETECTED] ? "undecided" : "found", NULL);
+    nh_pen_say(p, "Of %zu runs %zu are accurate, %zu of them flagged, and %zu are not accurate without a warning.", all,
+               s->count[NH_ACCURATE] + s->count[NH_FLAGGED], s->count[NH_FLAGGED], s->count[NH_UNDETECTED]);
+    nh_pen_close(p, NH_PEN_ANSWER);
+    nh_pen_words(p, "Motions from t = %.6g, as long as the map says or to t = %.6g.", c->begin, c->end);
+}
+
+/* The best solution of each degree, with what rounding lets expect. */
+static void answer_of_fit(nh_pen *p, const nh_benchmark *c)
+{
+    const nh_fitted *best = NULL;
+    for (size_t i = 0; i < c->fits; i++)
+        if (c->fit[i].right && isfinite(c->fit[i].error) && (!best || c->fit[i].error < best->error)) best = &c->fit[i];
+    nh_pen_open(p, NH_PEN_ANSWER, best ? "found" : "undecided", NULL);
+    if (best)
+        nh_pen_say(p, "The known currents are within %.1g of the space that is found, at points that no fit has seen.",
+                   best->error);
+    else nh_pen_say(p, "No known current is a combination of the functions that were tried.");
+    nh_pen_close(p, NH_PEN_ANSWER);
+}
+
+static void degrees(nh_pen *p, const nh_benchmark *c)
+{
+    nh_pen_table(p, "One row for each degree", "degree|functions|samples|solved by|error|expected|seconds");
+    for (size_t i = 0, next; i < c->fits; i = next) {
+        const nh_fitted *best = NULL;
+        for (next = i; next < c->fits && c->fit[next].degree == c->fit[i].degree; next++) {
+            const nh_fitted *m = &c->fit[next];
+            if (m->right && isfinite(m->error) && (!best || m->error < best->error)) best = m;
+        }
+        if (best)
+            nh_pen_row(p, "%zu|%zu|%zu|%s, %s route|%.1g|%.1g|%.2g", best->degree, best->functions, best->samples,
+                       best->basis, best->route, best->error, best->expected, best->seconds);
+    }
+    nh_pen_table_end(p);
+    nh_pen_words(p, "Error: distance of the known currents from the space; expected: what rounding leaves of it.");
+}
 
 static void answer(nh_pen *p, const nh_benchmark *c)
 {
@@ -42,7 +81,10 @@ static void put_run(nh_pen *p, const nh_benchmark *c, const nh_run_record *m, bo
     for (size_t k = 0; each && k < c->currents && m->drift && isfinite(m->error); k++)
         if (!isnan(m->drift[k])) nh_pen_say(p, ", drift of <%s> %.1g", c->current[k], m->drift[k]);
     if (!each && isfinite(m->worst_drift)) nh_pen_say(p, ", drift %.1g", m->worst_drift);
-    nh_pen_say(p, ", %.3g seconds, %.10g evaluations", m->seconds, (double)m->evaluations);
+    nh_pen_say(p, ", %.3g seconds", m->seconds);
+    if (isfinite(m->seconds_low)) nh_pen_say(p, " (quartiles %.3g to %.3g)", m->seconds_low, m->seconds_high);
+    nh_pen_say(p, ", %.10g evaluations%s", (double)m->evaluations,
+               m->below_floor ? ", not told apart from the reference" : "");
 }
 
 static void fastest(nh_pen *p, const nh_benchmark *c)
@@ -83,6 +125,12 @@ static size_t line_end(const nh_benchmark *c, size_t from)
     return next;
 }
 
+/* What was never begun says least. */
+static bool worse(nh_run_record_status a, nh_run_record_status b)
+{
+    return a != NH_NOT_RUN && (b == NH_NOT_RUN || a > b);
+}
+
 /* A method: its times for each error, and the worst status of its runs. */
 static void put_times(nh_pen *p, const nh_benchmark *c, size_t from, size_t to)
 {
@@ -94,7 +142,7 @@ static void put_times(nh_pen *p, const nh_benchmark *c, size_t from, size_t to)
         nh_pen_cell(p, NH_PEN_CELL, "%.2g", m ? m->seconds : NAN);
     }
     for (size_t i = from; i < to; i++)
-        if (c->item[i].status >= NH_FLAGGED && !(last && last->status == NH_UNDETECTED)) last = &c->item[i];
+        if (c->item[i].status >= NH_FLAGGED && (!last || worse(c->item[i].status, last->status))) last = &c->item[i];
     if (last) {
         nh_pen_open(p, NH_PEN_KIND, nh_run_record_status_name(last->status), NULL);
         nh_pen_say(p, "%s", nh_run_record_status_name(last->status));
@@ -131,123 +179,69 @@ static void times(nh_pen *p, const nh_benchmark *c)
 
 /* ---- the order of convergence ---- */
 
-static void put_orders(nh_pen *p, const nh_benchmark *c, size_t from, size_t to)
+static void put_order(nh_pen *p, const nh_benchmark *c, const nh_benchmark_order *o)
 {
-    const nh_run_record *first = &c->item[from];
     bool any = false;
     nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
-    nh_pen_cell(p, NH_PEN_ROW_HEAD, "%s", first->method);
-    nh_pen_cell(p, NH_PEN_CELL, "{%s}", first->formulation);
-    nh_pen_cell(p, NH_PEN_CELL, "%.10g", (double)first->order);
+    nh_pen_cell(p, NH_PEN_ROW_HEAD, "%s", o->method);
+    nh_pen_cell(p, NH_PEN_CELL, "{%s}", o->formulation);
+    nh_pen_cell(p, NH_PEN_CELL, "%.10g", (double)o->order);
+    nh_pen_cell(p, NH_PEN_CELL, "%.3g", o->judged.observed);
+    if (p->ink->brief) {
+        nh_pen_close(p, NH_PEN_ROW);
+        return;
+    }
     nh_pen_open(p, NH_PEN_CELL, NULL, NULL);
-    for (size_t i = from; i < to; i++)
-        if (isfinite(c->item[i].observed_order)) {
-            nh_pen_say(p, any ? ", %.3g" : "%.3g", c->item[i].observed_order);
-            any = true;
-        }
+    for (size_t i = 0; i < c->count; i++) {
+        const nh_run_record *m = &c->item[i];
+        if (strcmp(m->method, o->method) || strcmp(m->formulation, o->formulation) || isnan(m->observed_order))
+            continue;
+        nh_pen_say(p, any ? ", %.3g" : "%.3g", m->observed_order);
+        any = true;
+    }
     nh_pen_close(p, NH_PEN_CELL);
+    nh_pen_cell(p, NH_PEN_CELL, "%s", nh_benchmark_order_why(o));
     nh_pen_close(p, NH_PEN_ROW);
 }
 
-/* For methods with a fixed step, some of whose errors are above the error of the reference. */
+/* For methods with a fixed step. */
 static void orders(nh_pen *p, const nh_benchmark *c)
 {
-    bool begun = false;
-    for (size_t i = 0, next; i < c->count; i = next) {
-        bool any = false;
-        next = line_end(c, i);
-        for (size_t j = i; j < next; j++) any |= isfinite(c->item[j].observed_order);
-        if (!any) continue;
-        if (!begun) nh_pen_table(p, "Order of convergence", "method|formulation|by theory|observed, step by step");
-        begun = true;
-        put_orders(p, c, i, next);
-    }
-    if (!begun) return;
+    if (!c->orders) return;
+    nh_pen_table(p, "Order of convergence",
+                 p->ink->brief ? "method|formulation|by theory|observed"
+                               : "method|formulation|by theory|observed|step by step|remark");
+    for (size_t i = 0; i < c->orders; i++) put_order(p, c, &c->order[i]);
     nh_pen_table_end(p);
-    nh_pen_words(p, "Observed: log(e/e') / log(h/h') of the errors e, e' with two successive steps h > h'.");
+    nh_pen_words(p,
+                 "Observed: log(e/e') / log(h/h') of the errors e, e' with the two smallest steps h > h' whose errors "
+                 "are told from the reference and from rounding.");
+    nh_text words;
+    nh_text_init(&words);
+    if (nh_benchmark_put_orders(c, 8, &words)) nh_pen_words(p, "%s", nh_text_string(&words));
+    nh_text_clear(&words);
 }
 
-/* ---- time against error ---- */
+/* ---- work against error ---- */
 
-/* Plots that are compared get the same axes. */
-typedef struct {
-    double x[2], y[2];
-} ranges;
-
-static const ranges no_range = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
-
-static void hold(double range[2], double value)
+/* "Seconds against error: .." */
+static const char *caption_of(const nh_benchmark *c, const nh_benchmark_row *row, size_t panel)
 {
-    range[0] = fmin(range[0], value);
-    range[1] = fmax(range[1], value);
+    const nh_plot *plot = &row->panel[panel];
+    const char *y = plot->y_label, *x = plot->x_label;
+    return nh_arena_printf(c->arena, "%c%s against %.*s%s%s.%s%s", y[0] - 'a' + 'A', y + 1, (int)strcspn(x, ","), x,
+                           row->fit ? "" : ": ", row->fit ? "" : row->title, panel ? "" : " ",
+                           panel ? "" : row->caption);
 }
 
-static void flush(nh_pen *p, const char *formulation, size_t n, const nh_curve *curve, const ranges *all)
+static void plots(nh_pen *p, const nh_benchmark *c, bool fit)
 {
-    char title[200], caption[300];
-    if (!n) return;
-    snprintf(title, sizeof title, "Time against error, %.120s", formulation);
-    snprintf(
-        caption, sizeof caption,
-        "Seconds against error, %.120s. Down and to the left is better; each line is one method from loose to tight.",
-        formulation);
-    nh_plot plot = {.title = title,
-                    .description = "Both axes are logarithmic",
-                    .x_label = "error, relative",
-                    .y_label = "seconds",
-                    .log_x = true,
-                    .log_y = true,
-                    .floor = 1e-17,
-                    .also_x = all->x,
-                    .also_y = all->y,
-                    .curves = n,
-                    .curve = curve};
-    nh_pen_plot(p, &plot, caption);
-}
-
-/* A motion is not known more accurately than two references agree. */
-static double known_error(const nh_benchmark *c, const nh_run_record *m)
-{
-    static const double least = 1e-16;
-    return fmax(m->error, fmax(c->agreement, least));
-}
-
-/* One plot per formulation, one line per method. */
-static void plots(nh_pen *p, const nh_benchmark *c)
-{
+    nh_benchmark_row row[NH_BENCHMARK_ROWS];
     if (p->ink->brief) return;
-    double *x = nh_alloc_array(2 * c->count + 1, sizeof *x), *y = x + c->count;
-    nh_curve curve[most_lines];
-    ranges all = no_range;
-    size_t n = 0;
-    for (size_t i = 0; i < c->count; i++) {
-        if (!shown(&c->item[i])) continue;
-        hold(all.x, known_error(c, &c->item[i]));
-        hold(all.y, c->item[i].seconds);
-    }
-    for (size_t i = 0, next; i < c->count; i = next) {
-        size_t points = 0;
-        next = line_end(c, i);
-        for (size_t j = i; j < next; j++) {
-            const nh_run_record *m = &c->item[j];
-            if (!shown(m)) continue;
-            x[i + points] = known_error(c, m);
-            y[i + points++] = m->seconds;
-        }
-        if (points)
-            curve[n++] = (nh_curve){.name = c->item[i].method,
-                                    .count = points,
-                                    .x = x + i,
-                                    .x_stride = 1,
-                                    .y = y + i,
-                                    .y_stride = 1,
-                                    .marks = true};
-        bool last = next == c->count || strcmp(c->item[i].formulation, c->item[next].formulation);
-        if (!last && n < most_lines) continue;
-        flush(p, c->item[i].formulation, n, curve, &all);
-        n = 0;
-    }
-    nh_free(x);
+    size_t rows = nh_benchmark_rows(c, c->arena, row);
+    for (size_t i = 0; i < rows; i++)
+        for (size_t k = 0; k < row[i].panels && row[i].fit == fit; k++)
+            nh_pen_plot(p, &row[i].panel[k], caption_of(c, &row[i], k));
 }
 
 static void all_runs_brief(nh_pen *p, const nh_benchmark *c)
@@ -277,12 +271,15 @@ static void all_runs(nh_pen *p, const nh_benchmark *c)
         return;
     }
     nh_pen_open(p, NH_PEN_FOLD, NULL, "All runs");
-    nh_pen_table(p, "All runs", "method|formulation|set to|status|error|drift|seconds|evaluations|note");
+    nh_pen_table(p, "All runs", "method|formulation|set to|status|error|drift|seconds, quartiles|evaluations|note");
     for (size_t i = 0; i < c->count; i++) {
         const nh_run_record *m = &c->item[i];
-        nh_pen_row(p, "%s|{%s}|%s %.3g|!%s|%.2g|%.2g|%.3g|%.10g|%s", m->method, m->formulation, nh_run_record_set_by(m),
-                   nh_run_record_set_to(m), nh_run_record_status_name(m->status), m->error, m->worst_drift, m->seconds,
-                   (double)m->evaluations, m->note ? m->note : "");
+        nh_pen_row(p, "%s|{%s}|%s %.3g|!%s|%.2g|%.2g|%.3g, %.2g to %.2g|%.10g|%s", m->method, m->formulation,
+                   nh_run_record_set_by(m), nh_run_record_set_to(m), nh_run_record_status_name(m->status), m->error,
+                   m->worst_drift, m->seconds, m->seconds_low, m->seconds_high, (double)m->evaluations,
+                   m->below_floor        ? "not told apart from the reference"
+                   : m->note && *m->note ? m->note
+                                         : "");
     }
     nh_pen_table_end(p);
     nh_pen_close(p, NH_PEN_FOLD);
@@ -301,54 +298,6 @@ static void derivatives(nh_pen *p, const nh_benchmark *c)
 }
 
 /* ---- the discrete problem ---- */
-
-static bool same_way(const nh_fitted *a, const nh_fitted *b)
-{
-    return !strcmp(a->basis, b->basis) && !strcmp(a->route, b->route) && !strcmp(a->solver, b->solver);
-}
-
-static const double least_distance = 1e-17;
-
-static bool solved(const nh_fitted *m) { return m->right && isfinite(m->error); }
-
-/* One plot per size of the ansatz, with one line per method, over the number of samples. */
-static void fit_plot(nh_pen *p, const nh_benchmark *c, size_t first, size_t last, const ranges *all)
-{
-    enum { most = 12 };
-    size_t n = 0, room = last - first;
-    double *x = nh_alloc_array(2 * most * room + 1, sizeof *x);
-    char name[most][120], title[120], caption[240];
-    nh_curve curve[most];
-    for (size_t i = first; i < last && n < most; i++) {
-        bool told = false;
-        for (size_t j = first; j < i; j++) told |= same_way(&c->fit[i], &c->fit[j]);
-        double *at = x + 2 * n * room, *y = at + room;
-        size_t count = 0;
-        for (size_t j = i; j < last && !told; j++)
-            if (same_way(&c->fit[i], &c->fit[j]) && solved(&c->fit[j]))
-                at[count] = fmax(c->fit[j].error, least_distance), y[count++] = c->fit[j].seconds;
-        if (!count) continue;
-        snprintf(name[n], sizeof *name, "%.30s, %.30s, %.30s", c->fit[i].basis, c->fit[i].route, c->fit[i].solver);
-        curve[n] =
-            (nh_curve){.name = name[n], .count = count, .x = at, .x_stride = 1, .y = y, .y_stride = 1, .marks = true};
-        n++;
-    }
-    snprintf(title, sizeof title, "Time against error, %zu functions", c->fit[first].functions);
-    nh_plot plot = {.title = title,
-                    .description = "Both axes are logarithmic",
-                    .x_label = "distance of the known currents from the null space",
-                    .y_label = "seconds",
-                    .log_x = true,
-                    .log_y = true,
-                    .floor = 1e-18,
-                    .also_x = all->x,
-                    .also_y = all->y,
-                    .curves = n,
-                    .curve = curve};
-    snprintf(caption, sizeof caption, "%s. Each line is one way to solve it, with few to many samples.", title);
-    if (n) nh_pen_plot(p, &plot, caption);
-    nh_free(x);
-}
 
 static void fits_brief(nh_pen *p, const nh_benchmark *c)
 {
@@ -376,16 +325,7 @@ static void discrete(nh_pen *p, const nh_benchmark *c)
         fits_brief(p, c);
         return;
     }
-    ranges all = no_range;
-    for (size_t i = 0; i < c->fits; i++) {
-        if (!solved(&c->fit[i])) continue;
-        hold(all.x, fmax(c->fit[i].error, least_distance));
-        hold(all.y, c->fit[i].seconds);
-    }
-    for (size_t i = 0, next; i < c->fits; i = next) {
-        for (next = i; next < c->fits && c->fit[next].functions == c->fit[i].functions;) next++;
-        fit_plot(p, c, i, next, &all);
-    }
+    plots(p, c, true);
     nh_pen_open(p, NH_PEN_FOLD, NULL, "All solutions");
     nh_pen_table(p, "All solutions",
                  "functions|columns|samples|basis|route|solver|null values|gap|error|seconds|result");
@@ -398,18 +338,25 @@ static void discrete(nh_pen *p, const nh_benchmark *c)
     nh_pen_close(p, NH_PEN_FOLD);
 }
 
-void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_run *run, nh_pen_style style,
-                        nh_text *out)
+/* What was asked for, without the rest: a map, or the discrete problem. */
+static void write_part(nh_pen *p, const nh_benchmark *c, const nh_robustness *s, bool all)
 {
-    if (nh_screen_is_wanted(style)) {
-        nh_benchmark_write_answer(c, s, style.colour, out);
+    if (s) {
+        answer_of_maps(p, c, s);
+        p->ink->links(p->to, "robustness|Where they fail|system|System|words|Words|repeat|Repeat it");
+        nh_benchmark_write_robustness(p, s);
         return;
     }
-    const nh_simulation *q = c->question;
-    nh_pen pen, *p = &pen;
+    answer_of_fit(p, c);
+    p->ink->links(p->to, "degrees|By degree|discrete|The discrete problem|system|System|words|Words|repeat|Repeat it");
+    nh_pen_section(p, "degrees", "The best solution of each degree");
+    degrees(p, c);
+    if (all) discrete(p, c);
+}
+
+static void write_all(nh_pen *p, const nh_benchmark *c, const nh_robustness *s)
+{
     char sections[200];
-    nh_pen_subject subject = {.system = q->system, .analysis = q->analysis, .dag = q->model->dag, .shown = run->shown};
-    nh_pen_begin(p, style, &subject, "integrators compared", out);
     answer(p, c);
     snprintf(sections, sizeof sections, "methods|Methods|%s%ssystem|System|words|Words|repeat|Repeat it",
              c->fits ? "discrete|The discrete problem|" : "", s ? "robustness|Where they fail|" : "");
@@ -417,13 +364,36 @@ void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_
     nh_pen_section(p, "methods", "Methods");
     times(p, c);
     fastest(p, c);
-    plots(p, c);
+    plots(p, c, false);
     orders(p, c);
     derivatives(p, c);
     all_runs(p, c);
     discrete(p, c);
     nh_benchmark_write_robustness(p, s);
-    nh_pen_system(p, NULL, NULL);
-    nh_pen_glossary(p, "accurate, flagged, detected, undetected, timeout, drift");
+}
+
+void nh_benchmark_write(const nh_benchmark *c, const nh_robustness *s, const nh_run *run, nh_pen_style style,
+                        nh_text *out)
+{
+    bool part = !c->count && (s || c->fits), screen = nh_screen_is_wanted(style);
+    if (screen && !part) {
+        nh_benchmark_write_answer(c, s, style.colour, out);
+        return;
+    }
+    const nh_simulation *q = c->question;
+    nh_pen pen, *p = &pen;
+    nh_pen_subject subject = {.system = q->system, .analysis = q->analysis, .dag = q->model->dag, .shown = run->shown};
+    nh_pen_begin(p, style, &subject,
+                 !part ? "integrators compared"
+                 : s   ? "where methods fail"
+                       : "the discrete problem",
+                 out);
+    if (part) write_part(p, c, s, !screen);
+    else write_all(p, c, s);
+    if (!screen) {
+        nh_pen_system(p, NULL, NULL);
+        nh_pen_glossary(p, part ? "accurate, flagged, detected, undetected, timeout, not run"
+                                : "accurate, flagged, detected, undetected, timeout, not run, drift");
+    }
     nh_pen_end(p, run);
 }

@@ -14,7 +14,7 @@ static const char *const colour[colours] = {"#0072B2", "#D55E00", "#009E73", "#C
                                             "#E69F00", "#56B4E9", "#7A7A7A"};
 static const char *const dashes[] = {"none", "7 3", "2 3", "9 3 2 3", "14 4"};
 
-static bool visible(const nh_svg_canvas *c, const nh_curve *f, size_t i, double *x, double *y)
+bool nh_svg_at(const nh_svg_canvas *c, const nh_curve *f, size_t i, double *x, double *y)
 {
     double v = f->y[i * f->y_stride];
     if (!isfinite(v) || !isfinite(f->x[i * f->x_stride])) return false;
@@ -28,10 +28,10 @@ static void dots(const nh_svg_canvas *c, const nh_curve *f, size_t k)
 {
     double x, y;
     for (size_t i = 0; i < f->count && c->plot->fan; i++)
-        if (visible(c, f, i, &x, &y))
+        if (nh_svg_at(c, f, i, &x, &y))
             nh_text_addf(c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"1.1\" fill=\"%s\"/>", x, y, colour[k % colours]);
     for (size_t i = 0; i < f->count && !c->plot->fan; i++)
-        if (visible(c, f, i, &x, &y))
+        if (nh_svg_at(c, f, i, &x, &y))
             nh_text_addf(c->out,
                          "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>", x,
                          y, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
@@ -45,7 +45,7 @@ static void headings(const nh_svg_canvas *c, const nh_curve *f, size_t k)
     size_t step = f->count / marks + 1;
     for (size_t i = 0; i < f->count; i += step) {
         double angle = f->heading[i * f->y_stride], a = size * cos(angle), b = -size * sin(angle);
-        if (!visible(c, f, i, &x, &y) || !isfinite(angle)) continue;
+        if (!nh_svg_at(c, f, i, &x, &y) || !isfinite(angle)) continue;
         nh_text_addf(c->out, "<path fill=\"%s\" d=\"M%.1f %.1fL%.1f %.1fL%.1f %.1fZ\"/>", colour[k % colours], x + a,
                      y + b, x - a / 2 + b / 2, y - b / 2 - a / 2, x - a / 2 - b / 2, y - b / 2 + a / 2);
     }
@@ -61,7 +61,7 @@ static void smooth(const nh_svg_canvas *c, const nh_curve *f)
         for (size_t j = 0; j < 4; j++) {
             size_t at = i + j - (j > 0 || !first); /* the ends count twice */
             if (j == 3 && last) at = i + 1;
-            known = visible(c, f, at, &p[j][0], &p[j][1]);
+            known = nh_svg_at(c, f, at, &p[j][0], &p[j][1]);
             if (!known && (j == 1 || j == 2)) on = false;
             if (!known && j == 3) p[3][0] = p[2][0], p[3][1] = p[2][1];
             if (!known && j == 0) first = true;
@@ -83,18 +83,22 @@ static void curve(const nh_svg_canvas *c, const nh_curve *f, size_t k)
     nh_text_addf(
         c->out,
         "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" stroke-dasharray=\"%s\" d=\"",
-        colour[k % colours], c->plot->fan ? "0.9\" stroke-opacity=\"0.5" : "1.8",
-        dashes[k % (sizeof dashes / sizeof *dashes)]);
+        colour[k % colours],
+        c->plot->fan ? "0.9\" stroke-opacity=\"0.5"
+        : f->style   ? "1.2\" stroke-opacity=\"0.55"
+                     : "1.8",
+        dashes[f->style ? 0 : k % (sizeof dashes / sizeof *dashes)]);
     nh_polyline p = {.out = c->out};
     bool cubic = (c->plot->equal || c->plot->path) && !thin && f->count > 3;
     if (cubic) smooth(c, f);
     for (size_t i = 0; i < f->count && !cubic; i++)
-        if (!visible(c, f, i, &x, &y)) nh_polyline_end(&p);
+        if (!nh_svg_at(c, f, i, &x, &y)) nh_polyline_end(&p);
         else nh_polyline_to(&p, x, y);
     nh_polyline_end(&p);
     nh_text_add(c->out, "\"/>");
     if (f->heading) headings(c, f, k);
-    if (f->marks) dots(c, f, k);
+    if (f->style) nh_svg_marks(c, f, k);
+    else if (f->marks) dots(c, f, k);
 }
 
 /* A cell extends from halfway to the point before to halfway to the next one. */
@@ -122,14 +126,36 @@ static void cells(const nh_svg_canvas *c, const nh_cells *g)
 
 const char *nh_svg_colour(size_t k) { return colour[k % colours]; }
 
-/* Room for a name in letters of 17 pixels, as on a phone. */
-static double written(const char *name)
+/* Room for a name in letters of 17 pixels, as on a phone; in a drawing, which no style sheet enlarges, of 13. */
+static double written(const char *name, bool drawing)
 {
-    static const double letter = 9.2, capital = 3.2; /* how much wider that is */
+    const double letter = drawing ? 7 : 9.2, capital = drawing ? 2.4 : 3.2; /* how much wider that is */
     double wide = letter * (double)nh_text_width(name);
     for (const char *c = name; *c; c++)
         if (*c >= 'A' && *c <= 'Z') wide += capital;
     return wide;
+}
+
+/* The sign of a curve beside its name. */
+static void sign(const nh_svg_canvas *c, const nh_curve *f, size_t k, double x, double y)
+{
+    const char *shade = colour[k % colours];
+    if (f->dots && !f->style) {
+        nh_text_addf(c->out,
+                     "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>",
+                     x + 11, y - 4, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : shade, shade);
+        return;
+    }
+    nh_text_addf(c->out, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%s\" ", x,
+                 y - 4, x + 24, y - 4, f->front || f->expected ? "#808080" : shade,
+                 f->front   ? "8\" stroke-opacity=\"0.3"
+                 : f->style ? "1.2\" stroke-opacity=\"0.55"
+                            : "1.8");
+    nh_text_addf(c->out, "stroke-dasharray=\"%s\"/>",
+                 dashes[f->expected ? 1
+                        : f->style  ? 0
+                                    : k % (sizeof dashes / sizeof *dashes)]);
+    if (f->style && !f->front && !f->expected) nh_svg_mark(c, k, x + 12, y - 4);
 }
 
 /* Rows of names above the plot; returns their height.  With `draw` false nothing is drawn. */
@@ -137,30 +163,29 @@ static double legend(const nh_svg_canvas *c, bool draw)
 {
     double x = NH_SVG_LEFT, y = legend_row;
     if (c->plot->curves < 2 || c->plot->fan) return 0;
-    for (size_t k = 0; k < c->plot->curves; k++) {
+    for (size_t i = 0, k = 0; i < c->plot->curves; i++) {
+        const nh_curve *f = &c->plot->curve[i];
+        if (f->faint) continue;
         nh_text plain;
         nh_text_init(&plain);
-        nh_typeset_plain(c->plot->curve[k].name, &plain);
-        double room = 40 + written(nh_text_string(&plain));
+        nh_typeset_plain(f->name, &plain);
+        double room = 40 + written(nh_text_string(&plain), c->wide > NH_SVG_WIDTH);
         nh_text_clear(&plain);
-        if (x + room > NH_SVG_WIDTH - NH_SVG_RIGHT && x > NH_SVG_LEFT) x = NH_SVG_LEFT, y += legend_row;
+        if (x + room > c->wide - NH_SVG_RIGHT && x > NH_SVG_LEFT) x = NH_SVG_LEFT, y += legend_row;
         if (draw) {
-            bool is_dots = c->plot->curve[k].dots;
-            if (is_dots)
-                nh_text_addf(
-                    c->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\" stroke-width=\"1.4\"/>",
-                    x + 11, y - 4, k % 2 ? "4.6" : "2.6", k % 2 ? "none" : colour[k % colours], colour[k % colours]);
-            else
-                nh_text_addf(c->out,
-                             "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"1.8\" "
-                             "stroke-dasharray=\"%s\"/>",
-                             x, y - 4, x + 24, y - 4, colour[k % colours],
-                             dashes[k % (sizeof dashes / sizeof *dashes)]);
-            nh_svg_named(c, x + 28, y, "start", "legend", c->plot->curve[k].name);
+            sign(c, f, k, x, y);
+            nh_svg_named(c, x + 28, y, "start", "legend", f->name);
         }
         x += room;
+        k += !f->front && !f->expected;
     }
     return y;
+}
+
+double nh_svg_legend(const nh_plot *p, double wide, nh_text *out)
+{
+    const nh_svg_canvas c = {.plot = p, .out = out, .wide = wide};
+    return legend(&c, true);
 }
 
 static void begin(const char *id, nh_text *out)
@@ -249,20 +274,28 @@ static void bodies(nh_svg_canvas *c)
 
 void nh_svg_plot(const nh_plot *p, nh_text *out)
 {
-    nh_svg_canvas c = {.plot = p, .out = out};
+    nh_svg_canvas c = {.plot = p, .out = out, .wide = NH_SVG_WIDTH};
     if (p->view) {
         bodies(&c);
         return;
     }
-    c.legend = legend(&c, false);
+    c.legend = p->bare ? 0 : legend(&c, false);
     nh_svg_axes(&c);
     head(&c);
-    legend(&c, true);
+    if (!p->bare) legend(&c, true);
     if (p->cells) cells(&c, p->cells);
+    nh_svg_shade(&c);
     nh_svg_axes_draw(&c);
-    for (size_t k = 0; k < p->curves; k++)
-        if (p->curve[k].dots) dots(&c, &p->curve[k], k);
-        else curve(&c, &p->curve[k], k);
+    for (size_t i = 0; i < p->curves; i++)
+        if (p->curve[i].faint) nh_svg_faint(&c, &p->curve[i]);
+        else if (p->curve[i].front || p->curve[i].expected) nh_svg_front(&c, &p->curve[i]);
+    for (size_t i = 0, k = 0; i < p->curves; i++) {
+        if (p->curve[i].faint || p->curve[i].front || p->curve[i].expected) continue;
+        if (p->curve[i].dots && p->curve[i].style) nh_svg_marks(&c, &p->curve[i], k);
+        else if (p->curve[i].dots) dots(&c, &p->curve[i], k);
+        else curve(&c, &p->curve[i], k);
+        k++;
+    }
     if (p->timed)
         nh_text_addf(out,
                      "<line class=\"now\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#D55E00\" "

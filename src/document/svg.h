@@ -11,6 +11,9 @@
 #include "base/text.h"
 #include "document/perspective.h"
 
+/* A mark is filled, or pale, or hollow: not told apart from the reference. */
+typedef enum { NH_MARK_FULL, NH_MARK_PALE, NH_MARK_HOLLOW } nh_mark_style;
+
 typedef struct {
     const char *name;
     size_t count;
@@ -18,6 +21,12 @@ typedef struct {
     size_t x_stride, y_stride;
     bool dots, marks;      /* points instead of a line; points on the line */
     const double *heading; /* NULL, or an angle per point with y_stride, which marks at equal steps show */
+    /* Of a comparison.  `style`: how the mark of each point is drawn, in a shape of its own for every curve, with `dots` without a line; `low`,
+     * `high`: the spread of each y.  With NULL: neither.  `faint`: small grey points without a name, behind the others;
+     * `front`: a broad line behind them; `expected`: a dashed grey line. */
+    const nh_mark_style *style;
+    const double *low, *high;
+    bool faint, front, expected;
 } nh_curve;
 
 /* Rectangles around the points of a grid. */
@@ -31,6 +40,12 @@ typedef struct {
     const char *id, *title, *description, *x_label, *y_label;
     bool log_x, log_y, equal; /* equal: both axes have one scale */
     double floor;             /* with a logarithmic axis: smaller values are drawn there */
+    /* what lies left of this value of x is shaded, with this name; 0: nothing */
+    double shaded;
+    const char *shaded_name;
+    double tall; /* height in pixels; 0: as usual */
+    bool close;  /* logarithmic axes end near the content, not at powers of ten */
+    bool bare;   /* a part of a drawing: without the names of the curves above it, and with the drawing's letters */
     /* two values each that the axes must include, too: for plots side by side; or NULL */
     const double *also_x, *also_y;
     bool fan;   /* many curves of one quantity: thin, in one colour, without a legend */
@@ -47,6 +62,8 @@ typedef struct {
 /* The colour of curve number k. */
 const char *nh_svg_colour(size_t k);
 
+/* The names of the curves in rows of so many pixels; returns their height. */
+double nh_svg_legend(const nh_plot *plot, double wide, nh_text *out);
 /* Adds the plot as an SVG element. */
 void nh_svg_plot(const nh_plot *plot, nh_text *out);
 /* The contents alone, as a group. */

@@ -51,6 +51,15 @@ static void whole_decades(nh_svg_axis *a, double floor_value)
     a->high = pow(10, ceil(log10(fmax(a->high, 10 * floor_value)) + 0.2));
 }
 
+/* A little beyond the content. */
+static void close_decades(nh_svg_axis *a, double floor_value)
+{
+    static const double beyond = 1.7;
+    a->logarithmic = true;
+    a->low = fmax(a->low, floor_value) / beyond;
+    a->high = fmax(a->high, floor_value) * beyond;
+}
+
 static void hold(nh_svg_axis *a, const double *also)
 {
     for (size_t k = 0; also && k < 2; k++) {
@@ -83,9 +92,10 @@ static void ranges(nh_svg_canvas *c)
     if (!any) c->x = (nh_svg_axis){0, 1, 0, 0, false}, c->y = c->x;
     hold(&c->x, p->also_x);
     hold(&c->y, p->also_y);
-    if (p->log_x) whole_decades(&c->x, p->floor);
+    void (*const logarithmic)(nh_svg_axis *, double) = p->close ? close_decades : whole_decades;
+    if (p->log_x) logarithmic(&c->x, p->floor);
     else if (!p->timed || !(c->x.high > c->x.low)) widen(&c->x);
-    if (p->log_y) whole_decades(&c->y, p->floor);
+    if (p->log_y) logarithmic(&c->y, p->floor);
     else widen(&c->y);
 }
 
@@ -138,10 +148,9 @@ void nh_svg_label(const nh_svg_canvas *c, double x, double y, const char *anchor
     static const char of_names[] = "_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
     const char *bar = strchr(text, '_');
     size_t index = bar && bar > text ? strspn(bar + 1, of_names) : 0;
-    nh_text_addf(c->out,
-                 "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" font-size=\"12\" fill=\"#808080\" "
-                 "font-family=\"sans-serif\">",
-                 class, x, y, anchor);
+    static const char alone[] = " font-size=\"12\" fill=\"#808080\" font-family=\"sans-serif\"";
+    nh_text_addf(c->out, "<text class=\"%s\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"%s>", class, x, y, anchor,
+                 c->plot->bare ? "" : alone);
     part(c, text, index ? (size_t)(bar - text) : strlen(text));
     if (index) {
         nh_text_add(c->out, "<tspan dy=\"0.3em\" font-size=\"75%\">");
@@ -219,13 +228,23 @@ static void decades(const nh_svg_canvas *c, bool vertical)
         power_of_ten((int)e, text, sizeof text);
         tick(c, vertical, pow(10, e), text);
     }
+    if (last > first || !c->plot->close) return;
+    for (double e = floor(log10(a->low)); e <= last + 1; e++) /* too few of them: between them, too */
+        for (int part = 2; part <= 5; part += 3)
+            if (part * pow(10, e) >= a->low && part * pow(10, e) <= a->high) {
+                char text[60], power[40];
+                power_of_ten((int)e, power, sizeof power);
+                if (e >= 0 && e <= 3) snprintf(text, sizeof text, "%.0f", part * pow(10, e));
+                else snprintf(text, sizeof text, "%d\u00b7%s", part, power);
+                tick(c, vertical, part * pow(10, e), text);
+            }
 }
 
 void nh_svg_axes(nh_svg_canvas *c)
 {
     const nh_plot *p = c->plot;
     ranges(c);
-    c->height = c->legend + (p->equal ? tall(c) : height);
+    c->height = c->legend + (p->equal ? tall(c) : p->tall > 0 ? p->tall : height);
     c->x.from = NH_SVG_LEFT;
     c->x.to = NH_SVG_WIDTH - NH_SVG_RIGHT;
     c->y.from = c->height - bottom;

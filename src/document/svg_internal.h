@@ -17,6 +17,7 @@ typedef struct {
     const nh_plot *plot;
     nh_text *out;
     nh_svg_axis x, y;
+    double wide;           /* of the rows of names */
     double legend, height; /* of the rows of names above the axes, and of the whole, in pixels */
 } nh_svg_canvas;
 
@@ -28,6 +29,15 @@ void nh_svg_label(const nh_svg_canvas *canvas, double x, double y, const char *a
                   const char *text);
 void nh_svg_named(const nh_svg_canvas *canvas, double x, double y, const char *anchor, const char *css,
                   const char *name);
+
+/* The curves of a comparison: the mark of curve number k, its spreads, the front and what lies behind. */
+void nh_svg_mark(const nh_svg_canvas *canvas, size_t k, double x, double y);
+void nh_svg_marks(const nh_svg_canvas *canvas, const nh_curve *curve, size_t k);
+void nh_svg_faint(const nh_svg_canvas *canvas, const nh_curve *curve);
+void nh_svg_front(const nh_svg_canvas *canvas, const nh_curve *curve);
+void nh_svg_shade(const nh_svg_canvas *canvas);
+/* Its place in pixels; false: it has none. */
+bool nh_svg_at(const nh_svg_canvas *canvas, const nh_curve *curve, size_t i, double *x, double *y);
 
 /* Sets the ranges of the axes by the content, and their place below the legend. */
 void nh_svg_axes(nh_svg_canvas *canvas);

@@ -16,6 +16,9 @@ static const char *const styles[] = {"nhblue, solid",
                                      "nhsky, densely dashed",
                                      "gray, dash dot dot"};
 enum { style_count = sizeof styles / sizeof *styles };
+static const char *const shapes[] = {"*", "square*", "triangle*", "diamond*", "triangle*, mark options={rotate=180}",
+                                     "x"};
+enum { shape_count = sizeof shapes / sizeof *shapes };
 
 static void coordinate(nh_tex_writer *w, double value)
 {
@@ -78,9 +81,40 @@ static void cells(nh_tex_writer *w, const nh_cells *c)
         }
 }
 
-static void curve(nh_tex_writer *w, const nh_plot *p, size_t k)
+/* A curve of a comparison, with its marks and spreads; or what lies behind. */
+static void compared(nh_tex_writer *w, const nh_plot *p, const nh_curve *f, size_t k)
 {
-    const nh_curve *f = &p->curve[k];
+    const char *colour = styles[k % style_count];
+    if (f->faint) nh_tex_add(w, "\\addplot[gray, only marks, mark=*, mark size=0.6pt, opacity=0.4, forget plot");
+    else if (f->front) nh_tex_add(w, "\\addplot[gray, line width=4pt, opacity=0.3, line join=round");
+    else if (f->expected) nh_tex_add(w, "\\addplot[gray, dashed");
+    else
+        nh_text_addf(w->out, "\\addplot[%.*s, thin, %smark=%s, mark size=1.7pt", (int)strcspn(colour, ","), colour,
+                     f->dots ? "only marks, " : "", shapes[k % shape_count]);
+    nh_tex_add(w, "] coordinates {");
+    for (size_t i = 0; i < f->count; i++) nh_text_addf(w->out, "%s(%.6g,%.6g)", i % 8 ? " " : "\n", f->x[i], f->y[i]);
+    nh_tex_add(w, "};\n");
+    if (!f->faint) legend(w, p, f);
+    for (size_t i = 0; i < f->count && !f->faint && !f->front && !f->expected; i++)
+        if (isfinite(f->low[i]) && isfinite(f->high[i]))
+            nh_text_addf(w->out, "\\draw[%.*s, thin, |-|] (axis cs:%.6g,%.6g) -- (axis cs:%.6g,%.6g);\n",
+                         (int)strcspn(colour, ","), colour, f->x[i], f->low[i], f->x[i], f->high[i]);
+}
+
+static void shade(nh_tex_writer *w, const nh_plot *p)
+{
+    if (p->shaded > 0)
+        nh_text_addf(w->out,
+                     "\\fill[gray, opacity=0.16] (rel axis cs:0,0) rectangle ({axis cs:%.6g,1}|-{rel axis cs:0,1});\n",
+                     p->shaded);
+}
+
+static void curve(nh_tex_writer *w, const nh_plot *p, const nh_curve *f, size_t k)
+{
+    if (f->style) {
+        compared(w, p, f, k);
+        return;
+    }
     if (!f->count) { /* the name of a colour */
         if (f->name[0])
             nh_text_addf(w->out, "\\addlegendimage{%s, only marks, mark=square*}\n", styles[k % style_count]),
@@ -206,7 +240,11 @@ void nh_tex_plot(nh_tex_writer *w, const nh_plot *p, const char *caption)
     if ((!p->log_y || p->also_y) && !p->cells) range(w, p, true);
     nh_tex_add(w, "]\n");
     if (p->cells) cells(w, p->cells);
-    for (size_t k = 0; k < p->curves; k++) curve(w, p, k);
+    shade(w, p);
+    for (size_t i = 0, k = 0; i < p->curves; i++) {
+        curve(w, p, &p->curve[i], k);
+        k += !p->curve[i].faint && !p->curve[i].front && !p->curve[i].expected;
+    }
     nh_tex_add(w, "\\end{axis}\n\\end{tikzpicture}\n\n{\\small ");
     nh_tex_words(w, caption);
     nh_tex_add(w, "}\n\\end{center}\n");

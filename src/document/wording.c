@@ -164,7 +164,8 @@ static const nh_glossary_entry entries[] = {
     {"detected", "Not accurate, or ended early, and a safeguard says so. In JSON: caught."},
     {"undetected", "Not accurate, and no safeguard triggered. The options benchmark_error, benchmark_far and "
                    "benchmark_fixed say what counts as accurate. In JSON: wrong."},
-    {"timeout", "A motion that was ended because it took too long, or too many steps."},
+    {"timeout", "A motion that was begun and ended because it took too long, or too many steps."},
+    {"not run", "A motion that was never begun: the method refuses the system, or the budget was used up."},
     {"scan", "Numbers of a system at every point of a grid of parameter values, and the values where they jump "
              "(nhsym scan)."},
     {"special value", "A value of a parameter for which there is more than for almost all values near it."},

@@ -313,6 +313,13 @@ static bool wants_maps(const nh_request *q) { return q->robustness || q->over; }
 
 static bool benchmark_check(const nh_request *q, nh_error *error)
 {
+    if (q->fit && (wants_maps(q) || q->methods)) {
+        nh_fail(error, NH_USAGE, "", "--fit, and --%s as well",
+                q->methods ? "method"
+                : q->over  ? "over"
+                           : "robustness");
+        return nh_error_hint(error, "--fit measures the discrete problem, and no motion");
+    }
     if (!wants_maps(q) || !q->methods) return true;
     nh_fail(error, NH_USAGE, "", "--method, and --%s as well", q->over ? "over" : "robustness");
     return nh_error_hint(error, "maps compare five methods, which are always the same");

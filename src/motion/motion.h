@@ -93,9 +93,10 @@ typedef struct {
     /* size: the state there; at a guard it is past the last output, and the next chart starts from it */
     double *end_state;
     long evaluations, steps, jacobians;
-    double effort;  /* units of base/effort.h that it took */
-    double seconds; /* by the clock: for reports only */
-    size_t events;  /* zeros of the watched functions, in the order of the motion */
+    double effort; /* units of base/effort.h that it took */
+    /* by the clock, and those for which its thread computed, to which other programs add nothing: for reports only */
+    double seconds, processor;
+    size_t events; /* zeros of the watched functions, in the order of the motion */
     nh_event_found *event;
     double *event_state; /* events x size */
     /* the motion stopped at the last zero, which is the last output as well; then it is complete */

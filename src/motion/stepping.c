@@ -197,7 +197,7 @@ static void end_at_singular(nh_motion *motion, size_t count, const double *times
 void nh_motion_run(nh_motion *motion, size_t count, const double *times, const nh_flow_options *options,
                    const nh_stepper *stepper)
 {
-    double begin = nh_clock(), before = nh_effort();
+    double begin = nh_clock(), computed = nh_clock_of_thread(), before = nh_effort();
     double *work = nh_alloc_array(motion->size, sizeof *work);
     watched w = begin_to_watch(motion, options, stepper);
     bool stop = false;
@@ -236,6 +236,7 @@ void nh_motion_run(nh_motion *motion, size_t count, const double *times, const n
     motion->complete = motion->count == count || motion->stopped;
     nh_free(work);
     motion->seconds = nh_clock() - begin;
+    motion->processor = nh_clock_of_thread() - computed;
     motion->effort = nh_effort() - before;
 }
 

@@ -62,6 +62,7 @@ static void append(nh_motion *motion, const nh_motion *part)
     motion->jacobians += part->jacobians;
     motion->effort += part->effort;
     motion->seconds += part->seconds;
+    motion->processor += part->processor;
     motion->limited = part->limited;
     motion->singular = part->singular;
     motion->stopped = part->stopped;

@@ -278,7 +278,7 @@ class Benchmark(Result):
         return self._document(CSV)
 
     def plot(self, ax: Any = None) -> Any:
-        """A picture: error against time.
+        """A picture: seconds and evaluations against error.
 
         Parameters
         ----------
@@ -293,10 +293,10 @@ class Benchmark(Result):
         Examples
         --------
         >>> nhsym.system("free_particle").benchmark(0.1, method="rk8pd", initial={"x'": 1}, until=1).plot()
-        <Picture of error against time>
+        <Picture of work against error>
         """
         if ax is None:
-            return Picture([self._document(SVG)], ["error against time"])
+            return Picture([self._document(SVG)], ["work against error"])
         ax, table = _axes(ax), self.table
         for method in dict.fromkeys(table["method"]):
             runs = table["method"] == method
@@ -311,7 +311,8 @@ class Benchmark(Result):
     @property
     def table(self) -> Dict[str, numpy.ndarray]:
         """A row per run, with the observed order of methods of fixed steps, as a dict of arrays."""
-        keys = ["method", "formulation", "tolerance", "step", "error", "drift", "seconds", "evaluations", "order", "observed_order", "status", "reduced", "front", "note"]
+        keys = ["method", "formulation", "tolerance", "step", "error", "drift", "seconds", "evaluations", "order", "observed_order", "status", "reduced", "front", "note",
+                "seconds_low", "seconds_high", "repeats", "floor", "below_floor", "front_evaluations"]
         return columns(self.json["motion"], keys)
 
 
