@@ -57,7 +57,8 @@ nh_robustness *nh_robustness_create(const nh_request *request, const char *over,
 void nh_robustness_free(nh_robustness *maps);
 
 /* A comparison of methods that includes these maps, each for half of the seconds; with `over` that map alone, without
- * the comparison, which is not what was asked.  0: 5 s for the methods, and the maps are limited by steps, so that they are the same on a busy machine.  After an interruption there may be no maps. */
+ * the comparison, which is not what was asked.  0: 5 s for the methods, and the maps are limited by steps, so that they
+ * are the same on a busy machine.  After an interruption there may be no maps. */
 nh_benchmark *nh_robustness_benchmark(const nh_request *request, const char *over, double seconds, nh_error *error);
 
 #endif

@@ -70,8 +70,8 @@ void nh_linear_motion_search(nh_stage_solver *solver);
 bool nh_linear_motion_is(nh_stage_solver *solver);
 /* The same of functions of the coordinates that have such equations. */
 void nh_linear_motion_functions(nh_stage_solver *solver);
-/* Fields with simple components, which are functions of t and q: constants, positions, harmonics, the system's functions;
- * products of these; linear in the velocities; times exponentials and waves with rates of a pencil. */
+/* Fields with simple components, which are functions of t and q: constants, positions, harmonics, the system's
+ * functions; products of these; linear in the velocities; times exponentials and waves with rates of a pencil. */
 void nh_field_fit_simple(nh_stage_solver *solver);
 void nh_field_fit_products(nh_stage_solver *solver);
 void nh_field_fit_linear(nh_stage_solver *solver);
