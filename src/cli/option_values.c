@@ -213,10 +213,20 @@ static bool set_progress(nh_cli *cli, const char *text, nh_error *error)
 /* Texts that were read are kept, so a pipe will do. */
 const char *nh_option_value_file(const char *word) { return strcmp(word, "-") ? word : NH_STANDARD_INPUT; }
 
-/* The file that an option names, NULL: it names none. */
-static const char **output_of(nh_cli *cli, int code)
+/* Where the value of an option is kept as it is, NULL: it is not. */
+static const char **text_of(nh_cli *cli, int code)
 {
-    return code == opt_svg ? &cli->svg : code == opt_pdf ? &cli->pdf : code == opt_csv ? &cli->csv : NULL;
+    switch (code) {
+    case opt_svg: return &cli->svg;
+    case opt_pdf: return &cli->pdf;
+    case opt_csv: return &cli->csv;
+    case opt_to: return &cli->ask.to;
+    case opt_base: return &cli->ask.base;
+    case opt_section: return &cli->ask.section;
+    case opt_axes: return &cli->ask.axes;
+    case opt_current: return &cli->ask.current;
+    default: return NULL;
+    }
 }
 
 /* Numerical options (docs/options.md) that have a name of their own on the command line. */
@@ -230,8 +240,8 @@ static bool is_numerical(int code)
     case opt_##name: cli->name = value; return true;
 bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *value, nh_error *error)
 {
-    const char **output = output_of(cli, code);
-    if (output) return *output = value, true;
+    const char **text = text_of(cli, code);
+    if (text) return *text = value, true;
     if (is_numerical(code)) return nh_request_option(&cli->ask, name, value, error);
     switch (code) {
     case opt_set: return each(cli, value, "set", set_parameter, error);
@@ -244,17 +254,13 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
     case opt_project: return cli->ask.project = true;
     case opt_weak: return cli->ask.weak = true;
     case opt_step: return positive(value, "step", &cli->ask.step, error);
-    case opt_to: cli->ask.to = value; return true;
     case opt_input: return each(cli, value, "input", set_input, error);
     case opt_wheel: return each(cli, value, "wheel", add_wheel, error);
     case opt_on: return each(cli, value, "on", add_level, error);
-    case opt_base: cli->ask.base = value; return true;
     case opt_name:
     case opt_like: *(code == opt_like ? &cli->like : &cli->ask.name) = value; return true;
     case opt_watch: cli->ask.watch = joined(cli, cli->ask.watch, value); return true;
     case opt_event: cli->ask.event = also(cli, cli->ask.event, value); return true;
-    case opt_section: cli->ask.section = value; return true;
-    case opt_axes: cli->ask.axes = value; return true;
     case opt_budget: return seconds(value, &cli->ask.budget, error);
     case opt_accuracy: return positive(value, "accuracy", &cli->ask.accuracy, error);
     case opt_ensemble: return members(value, &cli->ask.ensemble, error);
@@ -271,9 +277,9 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
     case opt_chain: cli->ask.chain = also(cli, cli->ask.chain, value); return true;
     case opt_inner: cli->ask.inner = also(cli, cli->ask.inner, value); return true;
     case opt_group: cli->ask.group = joined(cli, cli->ask.group, value); return true;
-    case opt_current: cli->ask.current = value; return true;
     case opt_field: cli->ask.field = joined(cli, cli->ask.field, value); return true;
     case opt_option: return each(cli, value, "option", add_option, error);
+    case opt_grid: return nh_request_grid(&cli->ask, value, error);
     case opt_velocities: return nh_request_velocities(&cli->ask, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
     case opt_progress: return set_progress(cli, value, error);

@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "search/coefficients.h"
 #include "search/current_list.h"
+#include "search/grid.h"
 #include "search/currents.h"
 #include "commands/analyze_known.h"
 #include "commands/analyze_models.h"
@@ -40,7 +41,8 @@ static void merge_options(nh_analysis_question *question, const nh_request *q)
     if (question->pace > 0 && !q->until_given) question->options.until /= question->pace;
     if (!a) return;
     if (a->has_seed && !q->seed_given) question->options.seed = a->seed;
-    if (a->has_samples && !q->samples_given) question->options.samples = a->samples;
+    question->samples_in_file = a->has_samples && !q->samples_given;
+    if (question->samples_in_file) question->options.samples = a->samples;
     if (a->has_tolerance && !q->tolerance_given) question->options.tolerance = a->tolerance;
     if (a->has_until && !q->until_given) question->options.until = a->until;
 }
@@ -58,26 +60,48 @@ static bool read_files(nh_analysis *result, nh_analysis_question *question, cons
     return question->system != NULL;
 }
 
-/* ---- the linear problem ---- */
-
-static nh_points *fit_points(nh_analysis *result, size_t columns, nh_error *error)
+/* The word of the command line, else that of the analysis file. */
+static bool choose_grid(nh_analysis *result, nh_analysis_question *question, const nh_request *q, nh_error *error)
 {
-    size_t count = (size_t)result->question->options.samples;
-    if (count == 0) count = samples_per_column * columns;
-    if (count < least_samples) count = least_samples;
-    if (count < columns + 16) count = columns + 16;
-    return nh_points_cover(result->question->model, count, (uint64_t)result->question->options.seed, error);
+    const nh_analysis_file *a = question->analysis;
+    question->grid.in_file = !q->grid && a && a->grid;
+    const char *word = q->grid ? q->grid : a ? a->grid : NULL;
+    if (!nh_grid_choose(result->arena, question->model, word, &question->grid, error)) return false;
+    /* every stage of the program's own search uses it */
+    bool staged = !a || !a->families;
+    return !staged || nh_grid_possible(result, NULL, 0, (size_t)question->options.samples, error);
 }
 
-static nh_nullspace *current_route(nh_analysis *result, const nh_ansatz *a, const nh_points *points, nh_error *error)
+/* ---- the linear problem ---- */
+
+typedef struct {
+    nh_analysis *result;
+    const nh_ansatz *ansatz;
+} problem;
+
+static nh_nullspace *current_route(void *context, const nh_points *points, nh_error *error)
 {
-    nh_equations *equations = nh_equations_create(a->columns, nh_threads(result->question->options.threads));
-    nh_rows *rows = nh_rows_create(result->question->model, a, 0, NULL);
+    const problem *p = context;
+    const nh_analysis *result = p->result;
+    nh_equations *equations = nh_equations_create(p->ansatz->columns, nh_threads(result->question->options.threads));
+    nh_rows *rows = nh_rows_create(result->question->model, p->ansatz, 0, NULL);
     nh_rows_current(rows, points, NULL, equations);
     nh_nullspace_options limits = nh_nullspace_options_from(&result->question->options);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, error);
     nh_rows_free(rows);
     nh_equations_free(equations);
+    return s;
+}
+
+/* The null space on the grid of the question. */
+static nh_nullspace *on_grid(nh_analysis *result, const nh_ansatz *a, nh_points **points, nh_error *error)
+{
+    const nh_options *options = &result->question->options;
+    size_t usual = samples_per_column * a->columns;
+    if (usual < least_samples) usual = least_samples;
+    problem p = {result, a};
+    nh_nullspace *s = nh_grid_solve(result, a, a->columns, (size_t)options->samples, usual, (uint64_t)options->seed,
+                                    current_route, &p, points, error);
     if (s) result->current = nh_spectrum_of(result->arena, s);
     return s;
 }
@@ -104,9 +128,9 @@ static bool linear_problem(nh_analysis *result, size_t families, const nh_family
                                     (size_t)result->question->options.columns, error);
     nh_points_free(ranges);
     if (!a) return false;
-    nh_points *points = fit_points(result, a->columns, error);
     result->timing.samples = lap(clock);
-    nh_nullspace *s = points ? current_route(result, a, points, error) : NULL;
+    nh_points *points;
+    nh_nullspace *s = on_grid(result, a, &points, error);
     bool good = s != NULL;
     if (good) {
         result->samples = points->count;
@@ -375,6 +399,7 @@ static bool run(nh_analysis *result, nh_analysis_question *question, const nh_re
     if (!made) return false;
     nh_deadline_set(question->options.max_seconds);
     merge_options(question, q); /* now the motion of the analysis is known, too */
+    if (!choose_grid(result, question, q, error)) return false;
     result->timing.geometry = lap(&clock);
     if (q->model_only) return true;
     size_t families = question->analysis ? question->analysis->families : 0;

@@ -17,6 +17,7 @@
 #include "commands/benchmark_internal.h"
 #include "graph/function.h"
 #include "graph/node.h"
+#include "search/grid.h"
 #include "search/spans.h"
 
 enum { most_levels = 6, densities = 3, ways = 8, heldout_points = 400, most_field_columns = 400, most_repeats = 3 };
@@ -28,6 +29,7 @@ typedef struct {
     nh_benchmark_work *c;
     nh_model *model;
     nh_options options;
+    const nh_grid *grid;
     nh_points *ranges, *heldout;
     nh_ansatz *cheb, *raw;
     size_t known;  /* known currents in the span of the ansatz */
@@ -137,10 +139,13 @@ static void measure(fit *f, size_t points_wanted, bool chebyshev, bool symmetry,
     const nh_ansatz *a = chebyshev ? f->cheb : f->raw;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_points *points = nh_points_create(f->model, points_wanted, 1, (uint64_t)f->options.seed, &ignored);
+    uint64_t seed = (uint64_t)f->options.seed;
+    nh_points *points = f->grid->kind == NH_GRID_SOBOL
+                            ? nh_points_create(f->model, points_wanted, 1, seed, &ignored)
+                            : nh_grid_points(f->model, &f->options, f->grid, points_wanted, seed, &ignored);
     double begin = nh_clock();
     *out = (nh_fitted){.functions = a->columns,
-                       .samples = points_wanted,
+                       .samples = points ? points->count : points_wanted,
                        .basis = chebyshev ? "Chebyshev" : "monomials",
                        .route = symmetry ? "symmetry" : "current",
                        .solver = plain ? "plain SVD" : "generalized",
@@ -251,12 +256,13 @@ static bool measure_degree(fit *f, size_t letters, const nh_ex *letter, size_t d
     return good;
 }
 
-void nh_benchmark_fit(nh_benchmark_work *c, double seconds)
+void nh_benchmark_fit(nh_benchmark_work *c, const nh_grid *grid, double seconds)
 {
     nh_benchmark *out = c->out;
     nh_error ignored;
     nh_error_clear(&ignored);
-    fit f = {.c = c, .model = out->question->model, .options = c->options, .deadline = nh_clock() + seconds};
+    fit f = {
+        .c = c, .model = out->question->model, .options = c->options, .grid = grid, .deadline = nh_clock() + seconds};
     uint64_t seed = (uint64_t)f.options.seed;
     nh_ex *letter = nh_alloc_array(3 * f.model->m + 1, sizeof *letter);
     size_t letters = nh_fit_letters(f.model, letter);

@@ -238,11 +238,7 @@ static void put_search(const writer *w, nh_json *to)
     } else {
         nh_json_put_null(to, "counted_space");
     }
-    nh_json *samples = nh_json_put_object(to, "samples");
-    nh_json_put_number(samples, "used", (double)result->samples);
-    nh_json_put_number(samples, "beyond_chart", (double)result->beyond);
-    nh_json_put_number(samples, "rejected", (double)result->rejected);
-    nh_json_put_number(samples, "seed", result->question->options.seed);
+    nh_analysis_json_samples(result, to);
     put_unknowns(w, to);
     nh_analysis_json_completeness(result, to);
     nh_analysis_json_stages(result, to);

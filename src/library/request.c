@@ -10,6 +10,7 @@
 #include "problem/table.h"
 #include "problem/places.h"
 #include "system/deck.h"
+#include "system/sample_grid.h"
 #include "system/system.h"
 
 static const char words_of_line[] = ", command line"; /* how the name of a completed file ends */
@@ -46,6 +47,13 @@ bool nh_request_velocities(nh_request *q, const char *word, nh_error *error)
     return nh_error_hint_near(error, word, names, sizeof names / sizeof *names,
                               q->line ? "--velocities takes auto, quasi or coordinates"
                                       : "velocities takes auto, quasi or coordinates");
+}
+
+bool nh_request_grid(nh_request *q, const char *word, nh_error *error)
+{
+    nh_grid_kind kind;
+    q->grid = word;
+    return nh_sample_grid_kind(word, &kind, error);
 }
 
 bool nh_request_method(nh_request *q, const char *word, nh_error *error)

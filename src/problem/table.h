@@ -12,7 +12,8 @@ typedef struct {
     size_t index;      /* 1: a first column without a name, the numbers of rows, is left out; otherwise 0 */
     const char **name; /* columns */
     const char **cell; /* rows x columns, row by row: text, which may be empty */
-    size_t *line;      /* rows: in the file, from 1 */
+    size_t heading;    /* the line of names in the file, from 1 */
+    size_t *line;      /* rows: likewise */
 } nh_table;
 
 /* In the arena; fields may stand in double quotes, empty lines and those that begin with # are left out.  NULL with
