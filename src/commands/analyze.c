@@ -9,6 +9,8 @@
 #include "base/linalg.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "graph/declared.h"
+#include "integrals/fitted.h"
 #include "search/coefficients.h"
 #include "search/current_list.h"
 #include "search/grid.h"
@@ -39,6 +41,7 @@ static void merge_options(nh_analysis_question *question, const nh_request *q)
     const nh_analysis_file *a = question->analysis;
     question->options = q->options;
     if (question->pace > 0 && !q->until_given) question->options.until /= question->pace;
+    if (question->model) nh_fitted_options(question->model, &question->options);
     if (!a) return;
     if (a->has_seed && !q->seed_given) question->options.seed = a->seed;
     question->samples_in_file = a->has_samples && !q->samples_given;
@@ -188,9 +191,18 @@ static void conclude(nh_analysis *result)
              result->search == NH_SEARCH_CUT || (result->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(result)),
          open = result->open > 0 || kept_out || nh_analysis_by_trial(result),
          failed = result->list->count == 0 && result->current.dimension > 0;
-    result->verdict = result->list->count || nh_analysis_to_the_end(result) ? NH_FOUND
-                      : open || failed || result->list->pieces              ? NH_UNDECIDED
-                                                                            : NH_NONE;
+    bool fitted = result->list->count && result->list->found[0].fitted;
+    nh_dag *d = result->question->model->dag;
+    if (fitted)
+        nh_analysis_warn(
+            result,
+            "a table has no formula: what is conserved is fitted, not proved; the slopes of `%s` differ by "
+            "%.1g (root mean square) from those without every second value",
+            nh_declared_has_table(d), nh_declared_table_error(d));
+    result->verdict = fitted                                                  ? NH_FITTED
+                      : result->list->count || nh_analysis_to_the_end(result) ? NH_FOUND
+                      : open || failed || result->list->pieces                ? NH_UNDECIDED
+                                                                              : NH_NONE;
     if (result->list->count == 0 && kept_out)
         nh_analysis_warn(result, "stages beyond a limit may contain further currents%s",
                          nh_analysis_left_out(result) ? ": the list of stages names the options to raise" : "");

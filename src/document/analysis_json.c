@@ -1,6 +1,8 @@
 #include "document/analysis.h"
 
 #include <math.h>
+
+#include "graph/declared.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -166,7 +168,7 @@ static void put_equations(const writer *w, nh_json *to)
 
 static const char *verdict_name(nh_verdict verdict)
 {
-    static const char *const names[] = {"FOUND", "NONE", "UNDECIDED"};
+    static const char *const names[] = {"FOUND", "NONE", "UNDECIDED", "FITTED"};
     return names[verdict];
 }
 
@@ -218,6 +220,9 @@ static void put_search(const writer *w, nh_json *to)
 {
     const nh_analysis *result = w->r;
     nh_json_put_text(to, "verdict", verdict_name(result->verdict));
+    double error = nh_declared_table_error(result->question->model->dag);
+    if (result->verdict == NH_FITTED && isfinite(error)) nh_json_put_number(to, "table_error", error);
+    else nh_json_put_null(to, "table_error");
     nh_json_put_text(to, "search", nh_search_word(result->search));
     nh_json_put_text(to, "ansatz", result->ansatz_note);
     put_spectrum(to, "nullspace", &result->current);
@@ -350,6 +355,9 @@ static void put_briefly(const writer *w, nh_json *item, const nh_current *f)
     nh_json_put_bool(item, "proved", f->proof.proved);
     nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
     nh_facts_put_holds(item, w->r->question->model, &f->proof);
+    nh_json_put_bool(item, "fitted", f->fitted);
+    if (f->fitted && isfinite(f->fit_digits)) nh_json_put_number(item, "fit_digits", f->fit_digits);
+    else nh_json_put_null(item, "fit_digits");
 }
 
 static void put_current(const writer *w, nh_json *currents, const nh_current *f)

@@ -39,10 +39,13 @@ static void real_where(nh_pen *p, const nh_analysis *result, const nh_current *f
 
 static void certificate(nh_pen *p, const nh_analysis *result, const nh_current *f)
 {
-    nh_pen_fact_begin(p, "Certified");
-    if (f->proof.proved) nh_pen_say(p, "proved");
+    nh_pen_fact_begin(p, f->fitted ? "Fitted" : "Certified");
+    if (f->fitted) nh_pen_say(p, "%s", nh_facts_proof(result, f));
+    else if (f->proof.proved) nh_pen_say(p, "proved");
     else nh_pen_say(p, "conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
-    nh_pen_say(p, "%s%s", nh_facts_holds(result->question->model, &f->proof, false), nh_facts_which_branch(result, f));
+    if (!f->fitted)
+        nh_pen_say(p, "%s%s", nh_facts_holds(result->question->model, &f->proof, false),
+                   nh_facts_which_branch(result, f));
     real_where(p, result, f);
     nh_pen_say(p, "; residual %.2g outside the fit", f->heldout);
     nh_pen_close(p, NH_PEN_FACT);

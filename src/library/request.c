@@ -7,7 +7,7 @@
 #include "base/files.h"
 #include "evaluate/constant_text.h"
 #include "problem/analysis_file.h"
-#include "problem/table.h"
+#include "problem/input.h"
 #include "problem/places.h"
 #include "system/deck.h"
 #include "system/sample_grid.h"

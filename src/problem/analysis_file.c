@@ -73,7 +73,7 @@ static bool read_grid(nh_analysis_file *a, const nh_deck_node *node, nh_error *e
     const nh_deck_node *word = node;
     if (node->kind == NH_DECK_MAP && (!nh_deck_only(a->deck, node, keys, 1, error))) return false;
     if (node->kind == NH_DECK_MAP) word = nh_deck_get(node, "file");
-    if (!word || !nh_deck_is(a->deck, word, NH_DECK_SCALAR, "a grid: sobol, or {file: points.csv}", error))
+    if (!word || !nh_deck_is(a->deck, word, NH_DECK_SCALAR, "a grid", error))
         return word || nh_deck_fail(a->deck, node, 0, error, "a grid was expected: sobol, or {file: points.csv}");
     if (!nh_sample_grid_kind(word->text, &kind, &trouble))
         return nh_deck_fail(a->deck, word, 0, error, "%s", trouble.what), nh_error_hint(error, "%s", trouble.hint);

@@ -36,6 +36,8 @@ typedef struct {
     bool exact;         /* every coefficient was recognised */
     nh_letters letters; /* numbers inside of its terms that have names */
     double quotient, heldout;
+    bool fitted;       /* of a system with tables: no proof is tried (integrals/fitted.h) */
+    double fit_digits; /* of a fitted one: digits to which its coefficients are determined; INFINITY: it has none */
     nh_proof proof;
     bool asked;            /* were the coefficients refined with many digits?  */
     bool moved;            /* and did the refinement give another combination than doubles had? */

@@ -9,7 +9,7 @@
 #include "motion/trajectory.h"
 #include "base/progress.h"
 #include "base/text.h"
-#include "problem/table.h"
+#include "system/table.h"
 #include "search/search.h"
 #include "system/sample.h"
 #include "system/sample_grid.h"

@@ -26,11 +26,4 @@ size_t nh_table_column(const nh_table *table, const char *name, nh_error *error)
 /* The number in a cell; false with its place. */
 bool nh_table_number(nh_arena *arena, const nh_table *table, size_t row, size_t column, double *out, nh_error *error);
 
-/* Functions of time that act on a system, as expressions of t. */
-
-/* `text` is an expression, which is returned as it is, or FILE.csv:COLUMN: then the expression is the broken line
- * through the values of that column over the column t of the file, constant before and after.  In the arena; NULL with
- * a message. */
-const char *nh_input_text(nh_arena *arena, const char *name, const char *text, nh_error *error);
-
 #endif

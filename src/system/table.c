@@ -1,5 +1,5 @@
 /* table: reads separated values: a line of names, then rows with as many fields. */
-#include "problem/table.h"
+#include "system/table.h"
 
 #include <stdint.h>
 #include <string.h>
