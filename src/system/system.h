@@ -103,7 +103,7 @@ typedef struct {
     nh_named *definition;
     nh_interval *interval; /* the sampling box as far as the user gave it */
     size_t reaches;
-    nh_interval *reach;       /* default intervals that were widened (system/system_internal.h) */
+    nh_interval *reach;       /* in place of default intervals (system/system_internal.h) */
     nh_named *current, *trap; /* known currents; functions known not to be conserved */
     nh_chain *chain;          /* bodies and joints; NULL when the file has none */
     size_t symmetries;        /* fields on configuration space that the file names as generators of a group */
