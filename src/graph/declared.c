@@ -30,6 +30,11 @@ bool nh_declared_find(const nh_dag *dag, const char *name, size_t *f)
     return false;
 }
 
+const char *nh_declared_function(const nh_dag *dag, size_t f)
+{
+    return f < dag->declared_count ? dag->declared[f].name : NULL;
+}
+
 nh_ex nh_declared_call(nh_dag *dag, size_t f, size_t n, nh_ex x)
 {
     const nh_declared own = dag->declared[f];

@@ -25,6 +25,8 @@ size_t nh_declared_add(nh_dag *dag, const char *name);
 void nh_declared_give(nh_dag *dag, size_t f, nh_ex variable, const nh_ex *value);
 /* The number of the function of this name; false: there is none. */
 bool nh_declared_find(const nh_dag *dag, const char *name, size_t *f);
+/* The name of the function f; NULL: there are not so many. */
+const char *nh_declared_function(const nh_dag *dag, size_t f);
 /* Its n-th derivative at x; of one with a value up to the order NH_DECLARED_PRIMES. */
 nh_ex nh_declared_call(nh_dag *dag, size_t f, size_t n, nh_ex x);
 /* Of any call: writes how a declared function stands before its arguments, V, V', V'', of a table of two variables V,

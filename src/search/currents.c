@@ -28,7 +28,7 @@
 #include "search/described.h"
 #include "search/specials.h"
 
-enum { heldout_count = 256, generic_count = 24, open_digits = 12, least_of_a_fit = 2 };
+enum { heldout_count = 256, generic_count = 24, open_digits = 12, least_of_a_fit = 2, digits_of_a_fit = 3 };
 
 /* Decides whether it is a current. */
 static void decide(nh_current_checker *checker, nh_candidate *c, nh_current *f)
@@ -153,7 +153,7 @@ static bool keeps(nh_current_checker *checker, const nh_current *f, bool certain
 {
     nh_analysis *result = checker->result;
     const nh_options *options = &result->question->options;
-    if (f->fitted && f->heldout <= options->heldout && f->fit_digits >= 1) return true;
+    if (f->fitted && f->heldout <= options->heldout && f->fit_digits >= digits_of_a_fit) return true;
     if (f->fitted) return note_almost(checker, f, -log10(f->heldout)), false;
     if (nh_coefficients_certain(f, options)) return true;
     if (nh_coefficients_refuted(f, options)) {
