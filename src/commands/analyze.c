@@ -193,12 +193,14 @@ static void conclude(nh_analysis *result)
          failed = result->list->count == 0 && result->current.dimension > 0;
     bool fitted = result->list->count && result->list->found[0].fitted;
     nh_dag *d = result->question->model->dag;
+    double error = nh_declared_table_error(d);
     if (fitted)
-        nh_analysis_warn(
-            result,
-            "a table has no formula: what is conserved is fitted, not proved; the slopes of `%s` differ by "
-            "%.1g (root mean square) from those without every second value",
-            nh_declared_has_table(d), nh_declared_table_error(d));
+        nh_analysis_warn(result, "a table has no formula: what is conserved is fitted, not proved; %s",
+                         error > 0 ? nh_arena_printf(result->arena,
+                                                     "the slopes of `%s` differ by %.1g (root mean square) from those "
+                                                     "without every second value",
+                                                     nh_declared_has_table(d), error)
+                                   : "the tables have too few values to tell how well they are known");
     result->verdict = fitted                                                  ? NH_FITTED
                       : result->list->count || nh_analysis_to_the_end(result) ? NH_FOUND
                       : open || failed || result->list->pieces                ? NH_UNDECIDED
