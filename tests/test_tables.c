@@ -206,6 +206,32 @@ Test(tables, one_percent_that_breaks_the_symmetry_leaves_the_energy_alone)
     place_clear(&p);
 }
 
+Test(tables, what_only_the_error_of_the_table_breaks_is_told_as_nearly_conserved)
+{
+    place p = place_make();
+    nh_text t;
+    nh_text_init(&t);
+    nh_text_add(&t, "x,y,V\n");
+    for (int i = 0; i <= 40; i++)
+        for (int j = 0; j <= 40; j++) {
+            double x = -2 + i / 10.0, y = -2 + j / 10.0;
+            nh_text_addf(&t, "%.17g,%.17g,%.17g\n", x, y, -exp(-(x * x + y * y) / 2));
+        }
+    write_here(&p, "plane.csv", nh_text_string(&t));
+    nh_text_clear(&t);
+    cJSON *json = analysis_of(&p, "coordinates: [{name: x, type: length}, {name: y, type: length}]\nparameters: {m: 1.3}\n"
+                                  "tables: [{name: V, file: plane.csv, in: [x, y]}]\nlagrangian: m/2*(x'^2 + y'^2) - V(x, y)\ndomain: {x: [-1, 1], y: [-1, 1]}\n");
+    cr_expect_eq(fitted_of(json), 1);
+    const cJSON *almost = cJSON_GetArrayItem(cJSON_GetObjectItem(json, "almost_conserved"), 0);
+    cr_assert_not_null(almost);
+    const char *formula = cJSON_GetStringValue(cJSON_GetObjectItem(almost, "expression"));
+    cr_expect(strstr(formula, "x*y'") && strstr(formula, "y*x'"), "%s", formula);
+    double rate = cJSON_GetNumberValue(cJSON_GetObjectItem(almost, "rate"));
+    cr_expect(rate > 1e-7 && rate < 1e-4, "%g", rate);
+    cJSON_Delete(json);
+    place_clear(&p);
+}
+
 Test(tables, verify_says_how_far_values_tell_and_code_is_refused)
 {
     place p = place_make();

@@ -12,6 +12,7 @@
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "graph/node.h"
+#include "graph/declared.h"
 #include "graph/print.h"
 #include "integrals/real_where.h"
 #include "search/theory.h"
@@ -332,9 +333,11 @@ static void almost(nh_pen *p, const nh_analysis *result)
     enum { first_ones = 2 }; /* for a terminal */
     if (!result->almosts) return;
     nh_pen_heading(p, "Almost conserved, not currents");
-    nh_pen_words(p, "In double precision these functions look constant. With more digits they change, or they have no "
-                    "certificate. They "
-                    "are not counted; the slowest comes first.");
+    nh_pen_words(p, nh_declared_has_table(result->question->model->dag)
+                        ? "These functions change slowly. Whether this is the error of the tables is not known. They "
+                          "are not counted; the slowest comes first."
+                        : "In double precision these functions look constant. With more digits they change, or they "
+                          "have no certificate. They are not counted; the slowest comes first.");
     for (size_t k = 0; k < result->almosts && !(p->ink->brief && k == first_ones); k++) {
         const nh_near_current *a = &result->almost[k];
         nh_pen_card(p, NULL);

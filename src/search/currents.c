@@ -126,6 +126,20 @@ static double relative_rate(const nh_model *model, const nh_points *points, nh_e
     return variation > 0 && isfinite(rate) ? sqrt(rate / variation) : NAN;
 }
 
+/* Is it, to two digits, a function of a nearly conserved quantity that is recorded? */
+static bool is_noted(const nh_current_checker *checker, nh_ex phi)
+{
+    const nh_analysis *r = checker->result;
+    double sure = r->question->options.sure;
+    for (size_t k = 0; k < r->almosts; k++) {
+        nh_ex pair[2] = {r->almost[k].phi, phi};
+        nh_independence kind[2];
+        nh_independence_test(r->question->model, checker->generic, 2, pair, NULL, sure, sure, kind, NULL);
+        if (kind[1] != NH_INDEPENDENT) return true;
+    }
+    return false;
+}
+
 /* Records a combination that is no current, or not certainly one, although doubles could not tell: as a slow quantity
  * when it changes slowly.  The slowest come first. */
 static void note_almost(nh_current_checker *checker, const nh_current *f, double digits)
@@ -135,6 +149,7 @@ static void note_almost(nh_current_checker *checker, const nh_current *f, double
            unit = result->question->pace > 0 ? result->question->pace : 1;
     if (!(rate <= result->question->options.slow * unit) || digits < (f->fitted ? least_of_a_fit : NH_LEAST_ALMOST))
         return;
+    if (f->fitted && is_noted(checker, f->phi)) return;
     if (!result->almost) result->almost = nh_arena_alloc(result->arena, NH_MOST_ALMOST * sizeof *result->almost);
     size_t at = result->almosts;
     while (at > 0 && result->almost[at - 1].rate > rate) at--;

@@ -6,6 +6,7 @@
 #include "base/linalg.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/node.h"
 #include "integrals/fitted.h"
 #include "integrals/recognise.h"
 #include "search/current_checker.h"
@@ -80,4 +81,6 @@ void nh_currents_fit(const nh_current_checker *checker, const nh_candidate *c, n
     f->exact = residual <= hardly * f->heldout;
     f->fit_digits = f->exact ? INFINITY : nh_fitted_again(model, checker->heldout, c, options);
     if (f->exact) f->phi = simple, f->heldout = residual;
+    if (nh_kind_of(model->dag, f->phi) == NH_PRODUCT) /* a number as a factor says nothing */
+        f->phi = nh_div(model->dag, f->phi, nh_number(model->dag, nh_constant_of(model->dag, f->phi)));
 }
