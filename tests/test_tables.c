@@ -256,6 +256,21 @@ Test(tables, verify_says_how_far_values_tell_and_code_is_refused)
     place_clear(&p);
 }
 
+Test(tables, commands_that_need_formulas_refuse_a_table)
+{
+    static const char *const lines[] = {"linearize system.yaml --at r=1", "classify system.yaml --over m"};
+    place p = place_make();
+    write_radial(&p);
+    write_here(&p, "system.yaml", RADIAL);
+    for (int i = 0; i < 2; i++) {
+        finished f = run(&p, lines[i]);
+        cr_expect_neq(f.code, 0);
+        cr_expect_not_null(strstr(f.err, "needs formulas, but `V` is a table, which has none"), "%s: %s", lines[i], f.err);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
 Test(tables, a_motion_that_leaves_the_table_says_so)
 {
     place p = place_make();
