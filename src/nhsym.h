@@ -162,7 +162,7 @@ NH_API nh_export *nh_export_functions(nh_problem *problem, const char *language,
 NH_API char *nh_export_code(const nh_export *export_, size_t file, char **name, nh_error *error);
 
 /* ---- an analysis ---- */
-NH_API const char *nh_analysis_verdict(const nh_analysis *analysis); /* "FOUND", "NONE" or "UNDECIDED" */
+NH_API const char *nh_analysis_verdict(const nh_analysis *analysis); /* "FOUND", "FITTED", "NONE" or "UNDECIDED" */
 NH_API const char *nh_analysis_search(const nh_analysis *analysis);  /* "complete", "exhausted" or "cut" */
 NH_API size_t nh_analysis_currents(const nh_analysis *analysis);
 NH_API size_t nh_analysis_independent(const nh_analysis *analysis);  /* functionally independent ones among them */

@@ -107,6 +107,8 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_until, "until", required_argument, "T", "analyze simulate benchmark reduce", "end time of the motions")      \
     X(opt_seed, "seed", required_argument, "N", "analyze export", "seed of all random choices")                        \
     X(opt_samples, "samples", required_argument, "N", "analyze", "number of sample points")                            \
+    X(opt_grid, "grid", required_argument, "sobol|halton|tensor|sparse|motion|FILE.csv", "analyze benchmark",          \
+      "where the equations are sampled")                                                                               \
     X(opt_columns, "columns", required_argument, "N", "analyze", "number of columns of the largest ansatz")            \
     X(opt_degree, "degree", required_argument, "D", "analyze classify scan",                                           \
       "count integrals polynomial in the velocities up to this degree")                                                \

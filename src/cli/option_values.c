@@ -292,6 +292,7 @@ bool nh_option_value_take(nh_cli *cli, int code, const char *name, const char *v
     case opt_field: cli->ask.field = joined(cli, cli->ask.field, value); return true;
     case opt_option: return each(cli, value, "option", add_option, error);
     case opt_route: return nh_request_route(&cli->ask, value, error);
+    case opt_grid: return nh_request_grid(&cli->ask, value, error);
     case opt_velocities: return nh_request_velocities(&cli->ask, value, error);
     case opt_json: cli->json = value ? value : "-"; return true;
     case opt_progress: return set_progress(cli, value, error);

@@ -35,6 +35,7 @@ enum {
     opt_until,
     opt_seed,
     opt_samples,
+    opt_grid,
     opt_columns,
     opt_degree,
     opt_threads,

@@ -9,8 +9,11 @@
 #include "base/linalg.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "graph/declared.h"
+#include "integrals/fitted.h"
 #include "search/coefficients.h"
 #include "search/current_list.h"
+#include "search/grid.h"
 #include "search/currents.h"
 #include "commands/analyze_known.h"
 #include "commands/analyze_models.h"
@@ -38,9 +41,11 @@ static void merge_options(nh_analysis_question *question, const nh_request *q)
     const nh_analysis_file *a = question->analysis;
     question->options = q->options;
     if (question->pace > 0 && !q->until_given) question->options.until /= question->pace;
+    if (question->model) nh_fitted_options(question->model, &question->options);
     if (!a) return;
     if (a->has_seed && !q->seed_given) question->options.seed = a->seed;
-    if (a->has_samples && !q->samples_given) question->options.samples = a->samples;
+    question->samples_in_file = a->has_samples && !q->samples_given;
+    if (question->samples_in_file) question->options.samples = a->samples;
     if (a->has_tolerance && !q->tolerance_given) question->options.tolerance = a->tolerance;
     if (a->has_until && !q->until_given) question->options.until = a->until;
 }
@@ -58,27 +63,61 @@ static bool read_files(nh_analysis *result, nh_analysis_question *question, cons
     return question->system != NULL;
 }
 
-/* ---- the linear problem ---- */
-
-static nh_points *fit_points(nh_analysis *result, size_t columns, nh_error *error)
+/* The word of the command line, else that of the analysis file. */
+static bool choose_grid(nh_analysis *result, nh_analysis_question *question, const nh_request *q, nh_error *error)
 {
-    size_t count = (size_t)result->question->options.samples;
-    if (count == 0) count = samples_per_column * columns;
-    if (count < least_samples) count = least_samples;
-    if (count < columns + 16) count = columns + 16;
-    return nh_points_cover(result->question->model, count, (uint64_t)result->question->options.seed, error);
+    const nh_analysis_file *a = question->analysis;
+    question->grid.in_file = !q->grid && a && a->grid;
+    const char *word = q->grid ? q->grid : a ? a->grid : NULL;
+    if (!nh_grid_choose(result->arena, question->model, word, &question->grid, error)) return false;
+    /* every stage of the program's own search uses it */
+    bool staged = !a || !a->families;
+    return !staged || nh_grid_possible(result, NULL, 0, (size_t)question->options.samples, error);
 }
 
-static nh_nullspace *current_route(nh_analysis *result, const nh_ansatz *a, const nh_points *points, nh_error *error)
+/* ---- the linear problem ---- */
+
+typedef struct {
+    nh_analysis *result;
+    const nh_ansatz *ansatz;
+    nh_ansatz *currents; /* of fields */
+} problem;
+
+static nh_nullspace *field_route(void *context, const nh_points *points, nh_error *error)
 {
-    nh_equations *equations = nh_equations_create(a->columns, nh_threads(result->question->options.threads));
-    nh_rows *rows = nh_rows_create(result->question->model, a, 0, NULL);
+    problem *p = context;
+    nh_ansatz_free(p->currents);
+    p->currents = NULL;
+    return nh_routes_fields(p->result, p->ansatz, points, &p->currents, error);
+}
+
+static nh_nullspace *current_route(void *context, const nh_points *points, nh_error *error)
+{
+    const problem *p = context;
+    const nh_analysis *result = p->result;
+    nh_equations *equations = nh_equations_create(p->ansatz->columns, nh_threads(result->question->options.threads));
+    nh_rows *rows = nh_rows_create(result->question->model, p->ansatz, 0, NULL);
     nh_rows_current(rows, points, NULL, equations);
     nh_nullspace_options limits = nh_nullspace_options_from(&result->question->options);
     nh_nullspace *s = nh_nullspace_solve(equations, &limits, error);
     nh_rows_free(rows);
     nh_equations_free(equations);
-    if (s) result->current = nh_spectrum_of(result->arena, s);
+    return s;
+}
+
+/* The null space on the grid of the question; of a fit of fields in `currents`, which it makes. */
+static nh_nullspace *on_grid(nh_analysis *result, const nh_ansatz *a, nh_points **points, nh_ansatz **currents,
+                             nh_error *error)
+{
+    const nh_options *options = &result->question->options;
+    size_t usual = samples_per_column * a->columns;
+    if (usual < least_samples) usual = least_samples;
+    bool fields = result->question->route == NH_ROUTE_FIELDS;
+    problem p = {result, a, NULL};
+    nh_nullspace *s = nh_grid_solve(result, a, a->columns, (size_t)options->samples, usual, (uint64_t)options->seed,
+                                    fields ? field_route : current_route, &p, points, error);
+    if (s && !fields) result->current = nh_spectrum_of(result->arena, s);
+    *currents = p.currents;
     return s;
 }
 
@@ -104,13 +143,10 @@ static bool linear_problem(nh_analysis *result, size_t families, const nh_family
                                     (size_t)result->question->options.columns, error);
     nh_points_free(ranges);
     if (!a) return false;
-    nh_points *points = fit_points(result, a->columns, error);
     result->timing.samples = lap(clock);
-    bool fields = result->question->route == NH_ROUTE_FIELDS;
+    nh_points *points;
     nh_ansatz *own = NULL; /* of the currents of fields */
-    nh_nullspace *s = !points  ? NULL
-                      : fields ? nh_routes_fields(result, a, points, &own, error)
-                               : current_route(result, a, points, error);
+    nh_nullspace *s = on_grid(result, a, &points, &own, error);
     bool good = s != NULL;
     if (own) nh_ansatz_free(a), a = own;
     if (good) {
@@ -121,7 +157,7 @@ static bool linear_problem(nh_analysis *result, size_t families, const nh_family
         result->timing.nullspace = lap(clock);
         nh_current_checker *bench = nh_current_checker_create(result, error);
         good = bench != NULL;
-        nh_agreement_keep(result, families, family, a, s, fields);
+        nh_agreement_keep(result, families, family, a, s, own != NULL);
         if (good) collect(result, bench, a, points, s);
         if (good) nh_currents_finish(bench);
         nh_current_checker_free(bench);
@@ -169,9 +205,20 @@ static void conclude(nh_analysis *result)
              result->search == NH_SEARCH_CUT || (result->search != NH_SEARCH_COMPLETE && nh_analysis_left_out(result)),
          open = result->open > 0 || kept_out || nh_analysis_by_trial(result),
          failed = result->list->count == 0 && result->current.dimension > 0;
-    result->verdict = result->list->count || nh_analysis_to_the_end(result) ? NH_FOUND
-                      : open || failed || result->list->pieces              ? NH_UNDECIDED
-                                                                            : NH_NONE;
+    bool fitted = result->list->count && result->list->found[0].fitted;
+    nh_dag *d = result->question->model->dag;
+    double error = nh_declared_table_error(d);
+    if (fitted)
+        nh_analysis_warn(result, "a table has no formula: what is conserved is fitted, not proved; %s",
+                         error > 0 ? nh_arena_printf(result->arena,
+                                                     "the slopes of `%s` differ by %.1g (root mean square) from those "
+                                                     "without every second value",
+                                                     nh_declared_has_table(d), error)
+                                   : "the tables have too few values to tell how well they are known");
+    result->verdict = fitted                                                  ? NH_FITTED
+                      : result->list->count || nh_analysis_to_the_end(result) ? NH_FOUND
+                      : open || failed || result->list->pieces                ? NH_UNDECIDED
+                                                                              : NH_NONE;
     if (result->list->count == 0 && kept_out)
         nh_analysis_warn(result, "stages beyond a limit may contain further currents%s",
                          nh_analysis_left_out(result) ? ": the list of stages names the options to raise" : "");
@@ -381,6 +428,7 @@ static bool run(nh_analysis *result, nh_analysis_question *question, const nh_re
     if (!made) return false;
     nh_deadline_set(question->options.max_seconds);
     merge_options(question, q); /* now the motion of the analysis is known, too */
+    if (!choose_grid(result, question, q, error)) return false;
     result->timing.geometry = lap(&clock);
     if (q->model_only) return true;
     size_t families = question->analysis ? question->analysis->families : 0;

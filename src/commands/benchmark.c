@@ -353,10 +353,27 @@ static bool open_somewhere(nh_benchmark_work *c, const nh_request *request, doub
     return false;
 }
 
+/* Has the grid of the request points for this system? */
+static bool choose_grid(const nh_benchmark_work *c, const nh_request *request, nh_grid *grid, nh_error *error)
+{
+    const nh_model *model = c->out->question->model;
+    if (!nh_grid_choose(c->out->arena, model, request->grid, grid, error)) return false;
+    nh_points *p = nh_grid_points(model, &c->options, grid, 1, (uint64_t)c->options.seed, error);
+    nh_points_free(p);
+    return p || error->code != NH_OK || nh_fail(error, NH_NUMERIC, "", "no point of the grid is usable");
+}
+
 nh_benchmark *nh_benchmark_run(const nh_request *request, double budget, nh_error *error)
 {
     nh_benchmark_work c;
     if (!open_somewhere(&c, request, budget, error)) return NULL;
+    nh_grid grid = {0};
+    if (!choose_grid(&c, request, &grid, error)) {
+        nh_benchmark *out = c.out;
+        nh_benchmark_work_close(&c);
+        nh_benchmark_free(out);
+        return NULL;
+    }
     c.fit_alone = request->fit;
     if (!request->fit) {
         list_candidates(&c);
@@ -367,7 +384,7 @@ nh_benchmark *nh_benchmark_run(const nh_request *request, double budget, nh_erro
     nh_benchmark_work_measure_all(&c);
     if (!c.out->methods) { /* these warnings concern no integrator */
         if (!request->fit) nh_benchmark_derivatives(&c.formulation[0], c.out);
-        nh_benchmark_fit(&c, request->fit ? budget : budget * share_of_fits);
+        nh_benchmark_fit(&c, &grid, request->fit ? budget : budget * share_of_fits);
     }
     c.out->partial |= nh_interrupted();
     nh_benchmark_work_close(&c);

@@ -18,6 +18,7 @@
 #include "commands/benchmark_internal.h"
 #include "graph/function.h"
 #include "graph/node.h"
+#include "search/grid.h"
 #include "search/spans.h"
 
 enum {
@@ -39,6 +40,7 @@ typedef struct {
     nh_benchmark_work *c;
     nh_model *model;
     nh_options options;
+    const nh_grid *grid;
     nh_points *ranges, *heldout;
     nh_ansatz *cheb, *raw;
     size_t known;  /* known currents in the span of the ansatz */
@@ -151,12 +153,15 @@ static void measure(fit *f, size_t points_wanted, bool chebyshev, bool symmetry,
     const nh_ansatz *a = chebyshev ? f->cheb : f->raw;
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_points *points = nh_points_create(f->model, points_wanted, 1, (uint64_t)f->options.seed, &ignored);
+    uint64_t seed = (uint64_t)f->options.seed;
+    nh_points *points = f->grid->kind == NH_GRID_SOBOL
+                            ? nh_points_create(f->model, points_wanted, 1, seed, &ignored)
+                            : nh_grid_points(f->model, &f->options, f->grid, points_wanted, seed, &ignored);
     double begin = nh_clock();
     *out = (nh_fitted){.degree = f->degree,
                        .functions = a->columns,
-                       .samples = points_wanted,
-                       .grid = "sobol",
+                       .samples = points ? points->count : points_wanted,
+                       .grid = nh_sample_grid_word(f->grid->kind),
                        .basis = chebyshev ? "Chebyshev" : "monomials",
                        .route = symmetry ? "symmetry" : "current",
                        .solver = plain ? "plain SVD" : "generalized",
@@ -270,12 +275,13 @@ static bool measure_degree(fit *f, size_t letters, const nh_ex *letter, size_t d
     return good;
 }
 
-void nh_benchmark_fit(nh_benchmark_work *c, double seconds)
+void nh_benchmark_fit(nh_benchmark_work *c, const nh_grid *grid, double seconds)
 {
     nh_benchmark *out = c->out;
     nh_error ignored;
     nh_error_clear(&ignored);
-    fit f = {.c = c, .model = out->question->model, .options = c->options, .deadline = nh_clock() + seconds};
+    fit f = {
+        .c = c, .model = out->question->model, .options = c->options, .grid = grid, .deadline = nh_clock() + seconds};
     uint64_t seed = (uint64_t)f.options.seed;
     f.first = c->fit_alone ? 0 : usual_first;
     f.end = c->fit_alone ? densities : usual_end;

@@ -7,6 +7,7 @@
 #include "reduction/reduced.h"
 #include "commands/benchmark.h"
 #include "commands/reduce.h"
+#include "search/grid.h"
 
 enum {
     NH_BENCHMARK_OUTPUTS = 9,
@@ -147,8 +148,8 @@ nh_motion *nh_benchmark_work_counted(nh_benchmark_work *bench, const nh_candidat
 /* Did this or another limit end the motion?  The other one: does the chart end along it? */
 bool nh_benchmark_work_out_of_time(nh_benchmark_work *bench, const nh_motion *motion);
 bool nh_formulation_breaks_down(nh_formulation *f, const nh_motion *motion);
-/* Runs the discrete problem, in about so many seconds. */
-void nh_benchmark_fit(nh_benchmark_work *bench, double seconds);
+/* Runs the discrete problem on this grid, in about so many seconds. */
+void nh_benchmark_fit(nh_benchmark_work *bench, const nh_grid *grid, double seconds);
 
 /* Reads the closed forms of the system file that apply to the initial state. */
 void nh_known_motions_open(nh_benchmark_work *bench);

@@ -96,7 +96,8 @@ static bool read_family(nh_classified *x, const nh_classify_request *q, nh_error
     while (x->parameters < NH_MOST_PARAMETERS && q->over[x->parameters]) x->parameters++;
     nh_system *system = nh_system_read(q->system_path, q->settings, q->setting, error);
     if (!system) return false;
-    bool good = nh_system_needs_values(system, "a classification", error);
+    bool good = nh_system_needs_values(system, "a classification", error) &&
+                nh_system_needs_formulas(system, "a classification", error);
     for (size_t k = 0; k < x->parameters && good; k++) {
         const char *name = x->over[k] = nh_arena_strdup(x->arena, q->over[x->parameters - 1 - k]);
         good = find_parameter(system, name, &index[k], error);

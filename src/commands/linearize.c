@@ -292,7 +292,7 @@ nh_linearized *nh_linearize_create(const nh_request *q, nh_error *error)
     family f = {.x = x, .project = q->project, .axis_parameter = -1, .axis_value = -1};
     nh_progress("the equations of motion", -1);
     x->system = nh_system_read(q->system_path, q->settings, q->setting, error);
-    bool good = x->system && read_state(&f, error);
+    bool good = x->system && nh_system_needs_formulas(x->system, "linearize", error) && read_state(&f, error);
     if (good) x->linearization = nh_linearization_create(x->system);
     const char *over = q->overs ? q->over_list[0] : q->over;
     good = good && (over ? all_states(&f, over, error) : one_state(&f, error));

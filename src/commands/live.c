@@ -245,6 +245,7 @@ static const char *obstacle(const maker *w, nh_live_lacks *lacks)
         return nh_arena_printf(w->x->arena, "it has %zu states, more than %d", w->states, most_states);
     for (size_t i = 0; i < w->states - w->m; i++) {
         const char *name = lacks(w->d, w->everywhere ? w->h[i] : w->o->A[i]);
+        if (name && !strcmp(name, nh_function_name(NH_TABLE))) return "its equations contain a table of values";
         if (name) return nh_arena_printf(w->x->arena, "its equations need the function %s", name);
     }
     return NULL;

@@ -29,6 +29,7 @@ typedef struct nh_request {
     size_t settings;          /* --set, applied after the settings of the analysis file */
     const nh_setting *setting;
     nh_chart_choice chart; /* --velocities; NH_CHART_AUTO: that of the analysis file */
+    const char *grid; /* of analyze and benchmark: a word of system/sample_grid.h; NULL: that of the analysis file */
     nh_options options;
     /* of `options`; those that are given take precedence over the analysis file */
     bool limited, seed_given, samples_given, tolerance_given, until_given;

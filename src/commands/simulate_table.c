@@ -4,7 +4,7 @@
 
 #include "commands/simulate_internal.h"
 #include "graph/node.h"
-#include "problem/table.h"
+#include "system/table.h"
 
 typedef enum { COLUMN_STATE, COLUMN_PARAMETER } column_kind;
 

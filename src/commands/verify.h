@@ -42,6 +42,7 @@ struct nh_verification {
     struct nh_theory *theory; /* the geometry, if it was requested; else NULL */
     nh_model *other;          /* then: the chart of coordinate velocities, for a chart of quasi-velocities; or NULL */
     nh_proof proof;
+    bool fitted;     /* of a system with tables: no proof is tried (integrals/fitted.h) */
     double residual; /* largest relative rate at random points */
     bool has_counterexample;
     double *counterexample; /* model->width values (t, q, w, u) */

@@ -65,7 +65,7 @@ void nh_analysis_answer_headline(const nh_analysis *r, nh_text *out)
 {
     const nh_current_list *list = r->list;
     size_t n = list->independent, most = r->question->local_maximum;
-    const char *proved = all_proved(r) ? " and proved" : "";
+    const char *proved = all_proved(r) ? " and proved" : "", *found = r->verdict == NH_FITTED ? "fitted" : "found";
     size_t ends = nh_analysis_to_the_end(r);
     if (!list->count && r->verdict == NH_FOUND)
         nh_text_addf(out, "%zu quantit%s conserved until motions end. At most %zu can exist.", ends,
@@ -73,13 +73,14 @@ void nh_analysis_answer_headline(const nh_analysis *r, nh_text *out)
     else if (!list->count && r->verdict == NH_NONE) nh_text_add(out, "Nothing that was tried is conserved.");
     else if (!list->count && list->pieces) nh_text_add(out, "Nothing was found that is conserved along all motions.");
     else if (!list->count) nh_text_add(out, "Undecided: nothing was found that is surely conserved.");
-    else if (n == most && n == 1) nh_text_addf(out, "The only conserved quantity that can exist was found%s.", proved);
-    else if (n == most) nh_text_addf(out, "All %zu conserved quantities that can exist were found%s.", n, proved);
+    else if (n == most && n == 1)
+        nh_text_addf(out, "The only conserved quantity that can exist was %s%s.", found, proved);
+    else if (n == most) nh_text_addf(out, "All %zu conserved quantities that can exist were %s%s.", n, found, proved);
     else if (n == 1 && nh_current_is_energy(&list->found[0]))
         nh_text_addf(out, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.", most);
     else
-        nh_text_addf(out, "%zu independent conserved quantit%s found. At most %zu can exist.", n,
-                     n == 1 ? "y was" : "ies were", most);
+        nh_text_addf(out, "%zu independent conserved quantit%s %s. At most %zu can exist.", n,
+                     n == 1 ? "y was" : "ies were", found, most);
     const nh_explicit_motion *m = r->motion;
     if (list->count && m && m->proved && m->known == m->states && !m->integrals)
         nh_text_addf(out, " The motion is known in closed form%s%s%s.", m->fixed ? " for " : "",

@@ -24,6 +24,7 @@ void nh_analysis_json_stated(const nh_analysis *result, nh_json *to);  /* what t
 void nh_analysis_json_figures(const nh_analysis *result, nh_json *to); /* those of the analysis file */
 /* How many numbers along the motion are not finite. */
 size_t nh_analysis_json_holes(const nh_analysis *result);
+void nh_analysis_json_samples(const nh_analysis *result, nh_json *to);      /* the sample points */
 void nh_analysis_json_completeness(const nh_analysis *result, nh_json *to); /* how many integrals there are */
 void nh_analysis_json_stages(const nh_analysis *result, nh_json *to);       /* which stages were tried */
 

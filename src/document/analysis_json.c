@@ -1,6 +1,8 @@
 #include "document/analysis.h"
 
 #include <math.h>
+
+#include "graph/declared.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -164,9 +166,24 @@ static void put_equations(const writer *w, nh_json *to)
 
 /* ---- the search ---- */
 
+/* The functions of tables, and how well their slopes are known. */
+static void put_tables(const nh_analysis *result, nh_json *to)
+{
+    const nh_dag *d = result->question->model->dag;
+    nh_json *list = nh_json_put_array(to, "tables");
+    const char *name;
+    for (size_t f = 0; (name = nh_declared_function(d, f)); f++) {
+        const nh_spline *table = nh_declared_table(d, f);
+        if (!table) continue;
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_text(item, "name", name);
+        nh_json_put_number(item, "error", table->error);
+    }
+}
+
 static const char *verdict_name(nh_verdict verdict)
 {
-    static const char *const names[] = {"FOUND", "NONE", "UNDECIDED"};
+    static const char *const names[] = {"FOUND", "NONE", "UNDECIDED", "FITTED"};
     return names[verdict];
 }
 
@@ -218,6 +235,7 @@ static void put_search(const writer *w, nh_json *to)
 {
     const nh_analysis *result = w->r;
     nh_json_put_text(to, "verdict", verdict_name(result->verdict));
+    put_tables(result, to);
     nh_json_put_text(to, "search", nh_search_word(result->search));
     nh_json_put_text(to, "ansatz", result->ansatz_note);
     put_spectrum(to, "nullspace", &result->current);
@@ -238,11 +256,7 @@ static void put_search(const writer *w, nh_json *to)
     } else {
         nh_json_put_null(to, "counted_space");
     }
-    nh_json *samples = nh_json_put_object(to, "samples");
-    nh_json_put_number(samples, "used", (double)result->samples);
-    nh_json_put_number(samples, "beyond_chart", (double)result->beyond);
-    nh_json_put_number(samples, "rejected", (double)result->rejected);
-    nh_json_put_number(samples, "seed", result->question->options.seed);
+    nh_analysis_json_samples(result, to);
     put_unknowns(w, to);
     nh_analysis_json_completeness(result, to);
     nh_analysis_json_stages(result, to);
@@ -358,6 +372,8 @@ static void put_briefly(const writer *w, nh_json *item, const nh_current *f)
     nh_json_put_bool(item, "proved", f->proof.proved);
     nh_json_put_bool(item, "proved_for_all_parameters", f->proof.all_parameters);
     nh_facts_put_holds(item, w->r->question->model, &f->proof);
+    nh_json_put_bool(item, "fitted", f->fitted);
+    if (f->fitted && isfinite(f->fit_digits)) nh_json_put_number(item, "fit_digits", f->fit_digits);
 }
 
 static void put_current(const writer *w, nh_json *currents, const nh_current *f)

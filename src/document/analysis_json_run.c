@@ -233,6 +233,32 @@ static nh_json *put_count(nh_json *to, const char *key, const nh_completeness *c
     return item;
 }
 
+void nh_analysis_json_samples(const nh_analysis *result, nh_json *to)
+{
+    const nh_analysis_question *q = result->question;
+    const nh_grid_report *g = &result->grid;
+    const nh_chart *c = q->model->chart;
+    nh_json *samples = nh_json_put_object(to, "samples");
+    nh_json_put_text(samples, "grid", nh_sample_grid_word(q->grid.kind));
+    nh_json_put_number(samples, "used", (double)result->samples);
+    nh_json_put_number(samples, "beyond_chart", (double)result->beyond);
+    nh_json_put_number(samples, "rejected", (double)result->rejected);
+    nh_json *why = nh_json_put_object(samples, "reasons");
+    nh_json_put_number(why, "not_finite", (double)g->not_finite);
+    nh_json_put_number(why, "no_solution", (double)g->not_solved);
+    nh_json_put_number(why, "near_singularity", (double)g->degenerate);
+    nh_json_put_number(why, "outside", (double)g->outside);
+    nh_json *branches = nh_json_put_object(samples, "branches");
+    for (size_t i = 0; i < g->branches; i++)
+        nh_json_put_number(branches, g->branch[i].name, (double)g->branch[i].points);
+    nh_json *domain = nh_json_put_object(samples, "domain");
+    for (size_t j = 0; j < 1 + q->model->m + q->model->n; j++) {
+        double range[2] = {c->low[j], c->high[j]};
+        nh_json_put_numbers(domain, nh_name_of(q->model->dag, c->symbol[j]), 2, range, 1);
+    }
+    nh_json_put_number(samples, "seed", q->options.seed);
+}
+
 void nh_analysis_json_completeness(const nh_analysis *result, nh_json *to)
 {
     const nh_completeness *c = result->completeness;

@@ -21,7 +21,7 @@ void nh_analysis_write_meaning(nh_pen *p, const nh_analysis *result, const char 
 /* The words of the first screen. */
 static void answer_of_a_page(nh_pen *p, const nh_analysis *result)
 {
-    static const char *const class[] = {"found", "none", "undecided"};
+    static const char *const class[] = {"found", "none", "undecided", "undecided"};
     nh_text words;
     nh_text_init(&words);
     nh_analysis_answer_headline(result, &words);
@@ -40,7 +40,7 @@ static void answer_of_a_page(nh_pen *p, const nh_analysis *result)
 static void answer_of_details(nh_pen *p, const nh_analysis *result)
 {
     const nh_current_list *list = result->list;
-    static const char *const verdict[] = {"FOUND", "NONE", "UNDECIDED"};
+    static const char *const verdict[] = {"FOUND", "NONE", "UNDECIDED", "FITTED"};
     nh_text words;
     nh_text_init(&words);
     nh_facts_completeness(result, &words);

@@ -12,6 +12,7 @@
 #include "graph/diff.h"
 #include "graph/measure.h"
 #include "graph/node.h"
+#include "graph/declared.h"
 #include "graph/print.h"
 #include "integrals/real_where.h"
 #include "search/theory.h"
@@ -39,10 +40,13 @@ static void real_where(nh_pen *p, const nh_analysis *result, const nh_current *f
 
 static void certificate(nh_pen *p, const nh_analysis *result, const nh_current *f)
 {
-    nh_pen_fact_begin(p, "Certified");
-    if (f->proof.proved) nh_pen_say(p, "proved");
+    nh_pen_fact_begin(p, f->fitted ? "Fitted" : "Certified");
+    if (f->fitted) nh_pen_say(p, "%s", nh_facts_proof(result, f));
+    else if (f->proof.proved) nh_pen_say(p, "proved");
     else nh_pen_say(p, "conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
-    nh_pen_say(p, "%s%s", nh_facts_holds(result->question->model, &f->proof, false), nh_facts_which_branch(result, f));
+    if (!f->fitted)
+        nh_pen_say(p, "%s%s", nh_facts_holds(result->question->model, &f->proof, false),
+                   nh_facts_which_branch(result, f));
     real_where(p, result, f);
     nh_pen_say(p, "; residual %.2g outside the fit", f->heldout);
     nh_pen_close(p, NH_PEN_FACT);
@@ -332,9 +336,11 @@ static void almost(nh_pen *p, const nh_analysis *result)
     enum { first_ones = 2 }; /* for a terminal */
     if (!result->almosts) return;
     nh_pen_heading(p, "Almost conserved, not currents");
-    nh_pen_words(p, "In double precision these functions look constant. With more digits they change, or they have no "
-                    "certificate. They "
-                    "are not counted; the slowest comes first.");
+    nh_pen_words(p, nh_declared_has_table(result->question->model->dag)
+                        ? "These functions change slowly. Whether this is the error of the tables is not known. They "
+                          "are not counted; the slowest comes first."
+                        : "In double precision these functions look constant. With more digits they change, or they "
+                          "have no certificate. They are not counted; the slowest comes first.");
     for (size_t k = 0; k < result->almosts && !(p->ink->brief && k == first_ones); k++) {
         const nh_near_current *a = &result->almost[k];
         nh_pen_card(p, NULL);

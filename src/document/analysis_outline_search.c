@@ -124,6 +124,37 @@ static void stages(nh_pen *p, const nh_analysis *result)
     nh_pen_table_end(p);
 }
 
+/* The grid of the largest linear problem: its kind, why points were rejected, its branches and its box. */
+static void grid(nh_pen *p, const nh_analysis *result)
+{
+    const nh_grid_report *g = &result->grid;
+    const nh_analysis_question *q = result->question;
+    const nh_chart *c = q->model->chart;
+    const struct {
+        size_t count;
+        const char *why;
+    } reason[] = {{g->not_finite, "not finite"},
+                  {g->not_solved, "without a solution of the constraints"},
+                  {g->degenerate, "near a singularity"},
+                  {g->outside, "outside of the domain"}};
+    if (!g->used) return;
+    nh_pen_fact_begin(p, "grid");
+    nh_pen_say(p, "%s%s", q->grid.kind == NH_GRID_FILE ? "points of " : "",
+               q->grid.kind == NH_GRID_FILE ? q->grid.path : nh_sample_grid_word(q->grid.kind));
+    if (g->variables) nh_pen_say(p, " in %zu variables", g->variables);
+    nh_pen_say(p, "; the largest problem has %zu points", g->used);
+    for (size_t i = 0; i < sizeof reason / sizeof *reason; i++)
+        if (reason[i].count) nh_pen_say(p, ", rejected %s: %zu", reason[i].why, reason[i].count);
+    for (size_t i = 0; i < g->branches; i++)
+        nh_pen_say(p, "%s%s: %zu points", i ? ", " : "; where ", g->branch[i].name, g->branch[i].points);
+    nh_pen_close(p, NH_PEN_FACT);
+    nh_pen_fact_begin(p, "domain");
+    for (size_t j = 0; j < 1 + q->model->m + q->model->n; j++)
+        nh_pen_say(p, "%s%s in [%.4g, %.4g]", j ? ", " : "", nh_name_of(q->model->dag, c->symbol[j]), c->low[j],
+                   c->high[j]);
+    nh_pen_close(p, NH_PEN_FACT);
+}
+
 void nh_analysis_write_search(nh_pen *p, const nh_analysis *result)
 {
     nh_pen_section(p, "search", result->list->count ? "How it was found" : "The search");
@@ -133,6 +164,7 @@ void nh_analysis_write_search(nh_pen *p, const nh_analysis *result)
     if (result->beyond) nh_pen_say(p, " and, near where the chart breaks down, %zu in all coordinates", result->beyond);
     nh_pen_say(p, ", %zu rejected.", result->rejected);
     nh_pen_close(p, NH_PEN_WORDS);
+    grid(p, result);
     unknowns(p, result);
     spectrum_plot(p, result);
     spectra(p, result);

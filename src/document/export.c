@@ -12,6 +12,8 @@
 #include "document/formula.h"
 #include "document/live.h"
 #include "document/reduction.h"
+#include "graph/declared.h"
+#include "graph/function.h"
 #include "graph/node.h"
 
 /* ---- the languages ---- */
@@ -198,6 +200,12 @@ bool nh_export_possible(const nh_export *x, nh_export_target target, nh_error *e
         for (size_t k = 0; k < n; k++) {
             const char *name = nh_source_lacks(language, f->dag, e[k]);
             if (!name) continue;
+            if (!strcmp(name, nh_function_name(NH_TABLE))) {
+                nh_fail(error, NH_USAGE, "--to",
+                        "`%s` needs `%s`, a table of values, which cannot be written as code of %s", f->name,
+                        nh_declared_has_table(f->dag), language->name);
+                return nh_error_hint(error, "--to latex and --to json write it by its name");
+            }
             nh_fail(error, NH_USAGE, "--to", "no common library of %s has the function %s, which `%s` needs",
                     language->name, name, f->name);
             return nh_error_hint(

@@ -280,12 +280,34 @@ static void put_where(const nh_analysis *r, const nh_current *f, nh_text *out)
     }
 }
 
+/* Rounded up to one digit. */
+static double at_most(double x)
+{
+    static const double rounding = 1e-9;
+    double unit = pow(10, floor(log10(x)));
+    return x > 0 ? ceil(x / unit - rounding) * unit : x;
+}
+
+void nh_facts_fit(const nh_current *f, nh_text *out)
+{
+    const double *drift = f->drift.drift;
+    nh_text_addf(out, "Fitted to %.1g", at_most(f->heldout));
+    if (isfinite(f->fit_digits))
+        nh_text_addf(out, ", its coefficients to %.0f digit%s", f->fit_digits, f->fit_digits == 1 ? "" : "s");
+    if (isfinite(drift[NH_DRIFT_RUNS - 1]) && drift[0] > 0)
+        nh_text_addf(out, "; along the motion it changes by %.1g%s", at_most(drift[0]),
+                     drift[NH_DRIFT_RUNS - 1] < drift[0] / 2 ? ", less with smaller tolerances" : "");
+}
+
 const char *nh_facts_proof(const nh_analysis *r, const nh_current *f)
 {
     nh_text out;
     nh_text_init(&out);
-    if (!f->proof.proved) nh_text_addf(&out, "Conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
-    nh_text_addf(&out, "%s%s", nh_facts_holds(r->question->model, &f->proof, true), nh_facts_which_branch(r, f));
+    if (f->fitted) nh_facts_fit(f, &out);
+    else if (!f->proof.proved)
+        nh_text_addf(&out, "Conserved to %.6g digits%s", floor(f->proof.digits), nh_formula_doubt(f));
+    if (!f->fitted) nh_text_add(&out, nh_facts_holds(r->question->model, &f->proof, true));
+    nh_text_add(&out, nh_facts_which_branch(r, f));
     put_where(r, f, &out);
     const char *text = nh_arena_strdup(r->arena, nh_text_string(&out));
     nh_text_clear(&out);

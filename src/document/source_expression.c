@@ -216,14 +216,11 @@ static void put_function(nh_source *w, nh_ex e)
         return;
     }
     w->sign |= f == NH_SIGN;
-    bool unspecified = f == NH_UNSPECIFIED;
-    const char *name = w->language->plain ? nh_function_name(f) : w->language->call[f];
-    size_t order = unspecified ? nh_declared_name(w->dag, e, &name) : 0;
-    nh_text_add(w->out, name);
-    while (order-- > 0) nh_text_add(w->out, "'");
+    size_t first = nh_declared_put(w->dag, e, w->out);
+    if (first == 0) nh_text_add(w->out, w->language->plain ? nh_function_name(f) : w->language->call[f]);
     nh_text_add(w->out, "(");
-    for (size_t i = unspecified ? 2 : 0; i < nh_arity(w->dag, e); i++) {
-        if (i && !unspecified) nh_text_add(w->out, ", ");
+    for (size_t i = first; i < nh_declared_arguments(w->dag, e); i++) {
+        if (i > first) nh_text_add(w->out, ", ");
         put(w, nh_child(w->dag, e, i), NH_IN_SUM);
     }
     nh_text_add(w->out, ")");

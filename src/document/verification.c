@@ -137,7 +137,9 @@ static void answer(nh_pen *p, const nh_verification *v)
         if (v->proof.proved) nh_pen_say(p, ", proved%s", nh_facts_holds(v->model, &v->proof, false));
         else
             nh_pen_say(p, ", to %.6g digits%s", floor(v->proof.digits),
-                       v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
+                       v->fitted          ? ", as far as values of a table can tell: a table has no formula"
+                       : v->proof.rounded ? " (its numbers are rounded to doubles)"
+                                          : "");
         nh_pen_say(p, "%s%s%s%s.", nh_verification_branches(v), v->region ? ", " : "", v->region ? v->region : "",
                    v->trivial ? "; it is trivial: the current is a constant" : "");
     } else if (v->region) {
@@ -270,7 +272,9 @@ static void put_yes(const nh_verification *v, bool colour, nh_text *out)
     if (v->proof.proved) nh_text_addf(&words, ": proved%s", nh_facts_holds(v->model, &v->proof, true));
     else
         nh_text_addf(&words, " to %.6g digits%s", floor(v->proof.digits),
-                     v->proof.rounded ? " (its numbers are rounded to doubles)" : "");
+                     v->fitted          ? ", as far as values of a table can tell: a table has no formula"
+                     : v->proof.rounded ? " (its numbers are rounded to doubles)"
+                                        : "");
     nh_text_addf(&words, "%s%s%s.", nh_verification_branches(v), v->region ? ", " : "", v->region ? v->region : "");
     if (v->trivial) nh_text_add(&words, " It is the same number at all states.");
     if (v->has_symmetry && !v->trivial) {

@@ -112,11 +112,18 @@ static const nh_glossary_entry entries[] = {
     {"ansatz", "The functions that a fit combines into currents."},
     {"family", "A group of functions of an ansatz, such as the polynomials up to a degree."},
     {"column", "One function of an ansatz: one column of the matrix of the fit."},
+    {"sample grid",
+     "The points of the constraint submanifold at which the equations are compared: Sobol or Halton points, "
+     "products of nodes (tensor, sparse), states along motions, or those of a file (--grid)."},
+    {"table", "A file of values that the system file makes a smooth function (key tables). It has no formula."},
     {"pencil", "A matrix whose entries are polynomials in one unknown. The unknown has the frequencies of an "
                "ansatz, or special values of a parameter (nhsym classify), where the rank of the matrix falls."},
     {"stage of a search", "One ansatz of the sequence that the program tries."},
-    {"verdict", "The answer of an analysis: FOUND, NONE or UNDECIDED."},
+    {"verdict", "The answer of an analysis: FOUND, FITTED, NONE or UNDECIDED."},
     {"FOUND", "Currents were found, and each is proved, or certified to at least 50 digits."},
+    {"FITTED",
+     "Currents were found of a system whose equations contain tables of values: a table has no formula, so they "
+     "are not proved, but hold at points that the fit has not seen as far as is said."},
     {"NONE", "No combination of the ansatz is conserved: every generalized singular value is far above rounding, "
              "and nothing was left out."},
     {"UNDECIDED", "Some singular values lie between rounding and significance: more samples or another ansatz may "

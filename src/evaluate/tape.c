@@ -32,11 +32,21 @@ static double call_value(unsigned f, double a, double b)
 }
 #undef X
 
-/* The value of a named function; `more` may be NULL where it takes at most two arguments. */
-static double named_value(unsigned op, double a, double b, const nh_more_arguments *more, const double *r)
+double nh_tape_named(const nh_spline *const *table, unsigned op, const double *argument)
 {
-    const double argument[NH_MOST_ARGUMENTS] = {a, b, more ? r[more->c] : 0, more ? r[more->d] : 0};
-    return nh_named_value((nh_function)(op - NH_OP_FUNCTION), argument);
+    nh_function f = (nh_function)(op - NH_OP_FUNCTION);
+    if (f != NH_TABLE) return nh_named_value(f, argument);
+    unsigned n = (unsigned)argument[1];
+    return nh_spline_value(table[(size_t)argument[0]], n % NH_SPLINE_ORDERS, n / NH_SPLINE_ORDERS, argument[2],
+                           argument[3]);
+}
+
+/* `more` may be NULL where it takes at most two arguments. */
+static double named_value(const nh_tape *tape, const nh_instruction *x, const double *r)
+{
+    const nh_more_arguments *more = x->more ? &tape->more[x->more - 1] : NULL;
+    const double argument[NH_MOST_ARGUMENTS] = {r[x->a], r[x->b], more ? r[more->c] : 0, more ? r[more->d] : 0};
+    return nh_tape_named(tape->table, x->op, argument);
 }
 
 static double op_value(unsigned op, double a, double b)
@@ -175,6 +185,7 @@ static uint32_t emit_named(compiler *c, nh_function f, const uint32_t *r)
     if (!all_constant(c, n, r)) return operation(c, NH_OP_FUNCTION + f, more, r[0], r[n > 1]);
     double value[NH_MOST_ARGUMENTS];
     for (size_t i = 0; i < n; i++) value[i] = c->constant[r[i]];
+    if (f == NH_TABLE) return operation(c, NH_OP_FUNCTION + f, more, r[0], r[1]);
     return constant(c, nh_named_value(f, value));
 }
 
@@ -386,6 +397,7 @@ nh_tape *nh_tape_create(nh_dag *dag, size_t n_in, const nh_ex *in, size_t n_out,
     tape->code = nh_alloc_array(c.length + 1, sizeof *tape->code);
     tape->output = nh_alloc_array(n_out + 1, sizeof *tape->output);
     tape->more = nh_alloc_array(c.mores + 1, sizeof *tape->more);
+    tape->table = nh_declared_tables(dag);
     assign(&c, tape, virtual_out);
     tape->effort = call + each_value * (double)(n_in + n_out);
     for (size_t i = 0; i < tape->length; i++) tape->effort += nh_op_effort(tape->code[i].op);
@@ -438,9 +450,7 @@ square:
     r[x->to] = r[x->a] * r[x->a], x++;
     DISPATCH();
 other:
-    r[x->to] = nh_op_is_named(x->op)
-                   ? named_value(x->op, r[x->a], r[x->b], x->more ? &tape->more[x->more - 1] : NULL, r)
-                   : op_value(x->op, r[x->a], r[x->b]);
+    r[x->to] = nh_op_is_named(x->op) ? named_value(tape, x, r) : op_value(x->op, r[x->a], r[x->b]);
     x++;
     DISPATCH();
 #undef DISPATCH

@@ -129,7 +129,7 @@ static void named(const nh_tape *tape, const nh_instruction *x, double **row, si
                  *fourth = x->more ? row[tape->more[x->more - 1].d] : row[x->a];
     for (size_t p = 0; p < count; p++) {
         const double argument[NH_MOST_ARGUMENTS] = {row[x->a][p], row[x->b][p], third[p], fourth[p]};
-        row[x->to][p] = nh_named_value((nh_function)(x->op - NH_OP_FUNCTION), argument);
+        row[x->to][p] = nh_tape_named(tape->table, x->op, argument);
     }
     for (size_t p = count; p < padded; p++) row[x->to][p] = row[x->to][0];
 }

@@ -75,6 +75,17 @@ static double complex value_of(unsigned op, double complex a, double complex b)
     }
 }
 
+/* A table has values at real places only: beside them to the first order, as complex steps need it. */
+static double complex table_value(const nh_tape *tape, const double complex *argument)
+{
+    const nh_spline *s = tape->table[(size_t)creal(argument[0])];
+    unsigned n = (unsigned)creal(argument[1]), i = n % NH_SPLINE_ORDERS, j = n / NH_SPLINE_ORDERS;
+    double x = creal(argument[2]), y = creal(argument[3]);
+    double slope = nh_spline_value(s, i + 1, j, x, y) * cimag(argument[2]);
+    if (s->y) slope += nh_spline_value(s, i, j + 1, x, y) * cimag(argument[3]);
+    return CMPLX(nh_spline_value(s, i, j, x, y), slope);
+}
+
 double complex *nh_tape_complex_create(const nh_tape *tape)
 {
     double complex *work = nh_alloc_array(tape->registers + 1, sizeof *work);
@@ -89,6 +100,10 @@ void nh_tape_eval_complex(const nh_tape *tape, double complex *r, const double c
         const nh_more_arguments *more = x->more ? &tape->more[x->more - 1] : NULL;
         const double complex argument[NH_MOST_ARGUMENTS] = {r[x->a], r[x->b], more ? r[more->c] : 0,
                                                             more ? r[more->d] : 0};
+        if (x->op == NH_OP_FUNCTION + NH_TABLE) {
+            r[x->to] = table_value(tape, argument);
+            continue;
+        }
         r[x->to] = nh_op_is_named(x->op) ? nh_named_value_complex((nh_function)(x->op - NH_OP_FUNCTION), argument)
                                          : value_of(x->op, r[x->a], r[x->b]);
     }

@@ -3,6 +3,7 @@
 #define NH_TAPE_INTERNAL_H
 
 #include "evaluate/tape.h"
+#include "graph/declared.h"
 #include "graph/function.h"
 
 /* see machine.h */
@@ -39,7 +40,8 @@ struct nh_tape {
     double *constant;
     nh_instruction *code;
     nh_more_arguments *more;
-    uint32_t *output; /* register of each output */
+    uint32_t *output;        /* register of each output */
+    const nh_spline **table; /* of the functions that the graph declares; NULL: none has one */
     nh_ex unbound;
     bool has_unbound;
 };
@@ -62,7 +64,10 @@ void nh_tape_look(const nh_tape *tape, nh_tape_work *work);
 /* Units of effort of one interpreted instruction. */
 double nh_op_effort(unsigned op);
 
-/* Is it a function that only named_value.h computes? */
+/* The value of a named function. */
+double nh_tape_named(const nh_spline *const *table, unsigned op, const double *argument);
+
+/* Is it a function that only named_value.h, or a table, computes? */
 static inline bool nh_op_is_named(unsigned op)
 {
     return op >= NH_OP_FUNCTION && nh_is_named_function((nh_function)(op - NH_OP_FUNCTION));

@@ -12,9 +12,10 @@ static const double between_looks = 2e6; /* units of effort between two looks wh
 
 double nh_op_effort(unsigned op)
 {
-    static const double plain = 1.2, division = 2.5, root = 4, power = 25, function = 12, named = 5000;
+    static const double plain = 1.2, division = 2.5, root = 4, power = 25, function = 12, named = 5000, table = 60;
     if (op == NH_OP_SQRT) return root;
     if (op == NH_OP_POW) return power;
+    if (op == NH_OP_FUNCTION + NH_TABLE) return table;
     if (op >= NH_OP_FUNCTION) return nh_op_is_named(op) ? named : function;
     return op == NH_OP_DIV || op == NH_OP_INV ? division : plain;
 }

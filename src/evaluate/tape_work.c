@@ -10,6 +10,7 @@ void nh_tape_free(nh_tape *tape)
     nh_free(tape->constant);
     nh_free(tape->code);
     nh_free(tape->more);
+    nh_free(tape->table);
     nh_free(tape->output);
     nh_free(tape);
 }

@@ -165,6 +165,7 @@ static bool note_function(nh_jet_point *x, nh_ex e)
     case NH_ATAN2:
     case NH_PI: return note(x, NH_JET_FREE, e, 1);
     case NH_UNSPECIFIED: return true; /* its values need no relations */
+    case NH_TABLE: x->obstacle = "a table, which has no formula"; return false;
     default:
         if (x->solutions && nh_is_named_function(nh_function_of(x->dag, e)) && note_first_order(x, e))
             return !x->obstacle;

@@ -3,6 +3,7 @@
 #define NH_DAG_INTERNAL_H
 
 #include "base/memory.h"
+#include "base/spline.h"
 #include "graph/node.h"
 
 typedef struct {
@@ -27,11 +28,13 @@ typedef struct {
     unsigned order;
 } nh_power_rule;
 
-/* A function of one argument that a file declares, see declared.h. */
+/* A function that a file declares, see declared.h. */
 typedef struct {
     const char *name;
     nh_ex variable;
-    const nh_ex *value; /* with its derivatives; NULL: unspecified */
+    const nh_ex *value;         /* with its derivatives; NULL: unspecified, or a table */
+    const nh_spline *table;     /* NULL: none */
+    const char *const *letters; /* of a table: the names of its variables */
 } nh_declared;
 
 struct nh_dag {

@@ -46,6 +46,7 @@ static const struct {
     NAMED(ELLIPTIC_EINC, "elliptic_einc", 2, "u, m"),
     NAMED(ELLIPTIC_PI, "elliptic_pi", 3, "n, u, m"),
     NAMED(UNSPECIFIED, "an unspecified function", 3, "f, n, x"), /* no name of the language */
+    NAMED(TABLE, "a function of a table", 4, "f, n, x, y"),      /* likewise */
 };
 #undef X
 
@@ -60,6 +61,7 @@ bool nh_is_incomplete_elliptic(nh_function f)
 
 size_t nh_function_constants(nh_function f)
 {
+    if (f == NH_TABLE) return 2;
     return table[f].arguments && (f < NH_ELLIPTIC_K || f == NH_UNSPECIFIED) ? (size_t)table[f].arity - 1 : 0;
 }
 

@@ -68,6 +68,7 @@ typedef enum {
     NH_ELLIPTIC_EINC,
     NH_ELLIPTIC_PI, /* elliptic integrals */
     NH_UNSPECIFIED, /* a function that a file declares without a value (declared.h) */
+    NH_TABLE,       /* one that interpolates a table of values (declared.h) */
     NH_FUNCTION_COUNT
 } nh_function;
 #undef X

@@ -21,7 +21,8 @@ bool nh_is_name(const char *text)
 bool nh_name_is_function(const char *name, nh_function *out)
 {
     for (int f = 0; f < NH_FUNCTION_COUNT; f++) {
-        if (f == NH_PI || f == NH_UNSPECIFIED || strcmp(name, nh_function_name((nh_function)f))) continue;
+        if (f == NH_PI || f == NH_UNSPECIFIED || f == NH_TABLE || strcmp(name, nh_function_name((nh_function)f)))
+            continue;
         *out = (nh_function)f;
         return true;
     }

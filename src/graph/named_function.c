@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "graph/dag.h"
+#include "graph/declared.h"
 #include "graph/function.h"
 #include "graph/node.h"
 #include "graph/parse.h"
@@ -135,6 +136,7 @@ nh_ex nh_named_function_rate(nh_dag *dag, nh_ex e, size_t i)
         if (i == 2) argument[1] = nh_add(dag, argument[1], nh_int(dag, 1));
         return i == 2 ? nh_call_any(dag, f, argument) : nh_real(dag, NAN);
     }
+    if (f == NH_TABLE) return nh_declared_table_rate(dag, e, i);
     if (f >= NH_ELLIPTIC_K) {
         for (size_t k = 0; k < sizeof slope / sizeof *slope; k++)
             if (slope[k].f == f && slope[k].argument == i) text = slope[k].first;

@@ -148,6 +148,17 @@ static bool function(parser *p, nh_function f, bool root, const char *word, size
     return !raised || nh_parse_raise(p, *out, exponent, at, out);
 }
 
+/* The derivative of order n of a table: V(x), V'(x); V(x, y), V_x(x, y), V_xy(x, y). */
+static bool table_call(parser *p, const char *word, size_t f, size_t n, nh_ex *out)
+{
+    size_t count = nh_declared_table(p->dag, f)->y ? 2 : 1;
+    nh_ex argument[2] = {0, nh_int(p->dag, 0)};
+    if (count == 1 && n >= NH_SPLINE_ORDERS) return *out = nh_int(p->dag, 0), arguments(p, word, 1, argument);
+    if (!arguments(p, word, count, argument)) return false;
+    *out = nh_declared_call_table(p->dag, f, n, argument[0], argument[1]);
+    return true;
+}
+
 /* V(x), V'(x), V''(x) of a function that the file declares. */
 static bool declared_call(parser *p, const char *word, size_t f, nh_ex *out)
 {
@@ -160,6 +171,7 @@ static bool declared_call(parser *p, const char *word, size_t f, nh_ex *out)
         nh_parse_fail(p, p->at, "`%s` is a function; `(` was expected after it", word);
         return nh_parse_hint(p, "write `%s(...)`", word);
     }
+    if (nh_declared_table(p->dag, f)) return table_call(p, word, f, primes, out);
     if (!arguments(p, word, 1, &argument)) return false;
     *out = nh_declared_call(p->dag, f, primes, argument);
     return true;
@@ -372,6 +384,8 @@ bool nh_parse_name(parser *p, nh_ex *out)
     if (strlen(word) > NH_PARSE_NAME) return nh_parse_fail(p, start, "a name longer than %d characters", NH_PARSE_NAME);
     nh_function f = NH_SIN;
     if (nh_declared_find(p->dag, word, &declared)) return declared_call(p, word, declared, out);
+    size_t order;
+    if (nh_declared_find_partial(p->dag, word, &declared, &order)) return table_call(p, word, declared, order, out);
     bool root = !strcmp(word, "sqrt");
     if (root || nh_name_is_function(word, &f)) return function(p, f, root, word, start, out);
     if (!strcmp(word, "pi")) {

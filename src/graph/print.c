@@ -296,15 +296,13 @@ static bool opens_sum(const nh_dag *dag, nh_ex e)
 
 static void put_function(printer *p, nh_ex e)
 {
-    bool unspecified = nh_function_of(p->dag, e) == NH_UNSPECIFIED;
-    const char *name = nh_function_name(nh_function_of(p->dag, e));
-    size_t order = unspecified ? nh_declared_name(p->dag, e, &name) : 0;
-    nh_text_add(p->out, name);
-    while (order-- > 0) nh_text_add(p->out, "'");
-    if (nh_arity(p->dag, e) == 0) return;
+    size_t first = nh_declared_put(p->dag, e, p->out);
+    if (first == 0) nh_text_add(p->out, nh_function_name(nh_function_of(p->dag, e)));
+    size_t last = nh_declared_arguments(p->dag, e);
+    if (last == 0) return;
     nh_text_add(p->out, "(");
-    for (size_t i = unspecified ? 2 : 0; i < nh_arity(p->dag, e); i++) {
-        if (i && !unspecified) nh_text_add(p->out, ", ");
+    for (size_t i = first; i < last; i++) {
+        if (i > first) nh_text_add(p->out, ", ");
         put(p, nh_child(p->dag, e, i), in_sum);
     }
     nh_text_add(p->out, ")");

@@ -21,7 +21,8 @@
 
 #include "integrals/basis.h"
 
-typedef enum { NH_FOUND, NH_NONE, NH_UNDECIDED } nh_verdict;
+/* Fitted: of analyses whose currents cannot be proved, because tables have no formula. */
+typedef enum { NH_FOUND, NH_NONE, NH_UNDECIDED, NH_FITTED } nh_verdict;
 
 /* Collects rows.  With more than one thread the triangles of A and B are computed beside the caller; the result does
  * not depend on it. */

@@ -255,7 +255,7 @@ static bool is_natural(const nh_model *model)
 
 typedef struct {
     const nh_model *o;
-    bool natural;
+    bool natural; /* the points are (t, q, v): moved to allowed velocities */
     guard guard;
     nh_bordered *bordered; /* NULL: points beyond the chart are not wanted, or none was found yet */
     bool cover;   /* not of one branch of a quadratic constraint: all coordinates do not tell it from the other */
@@ -270,9 +270,11 @@ static void take(sampling *s, nh_points *p)
     size_t m = model->m;
     double steepness = 0, *z = s->z;
     if (s->natural) {
+        const nh_chart *c = model->chart;
         memcpy(s->v, z + 1 + m, m * sizeof *s->v);
-        for (size_t i = 0; i < model->n; i++) z[1 + m + i] = s->v[model->chart->free[i]];
-        if (!project(&s->guard, z, s->v)) {
+        for (size_t i = 0; i < model->n; i++) z[1 + m + i] = c->quasi ? 0 : s->v[c->free[i]];
+        for (size_t i = 0; i < c->implicit; i++) z[1 + m + model->n + i] = s->v[c->dependent[i]];
+        if (!c->implicit && !project(&s->guard, z, s->v)) {
             p->not_finite++;
             return;
         }
@@ -291,41 +293,58 @@ static void take(sampling *s, nh_points *p)
     }
 }
 
-static void sampling_clear(sampling *s, nh_sampler *sampler)
+static void sampling_clear(sampling *s)
 {
     guard_clear(&s->guard);
     nh_bordered_free(s->bordered);
-    nh_sampler_free(sampler);
     nh_free(s->low);
+}
+
+static sampling sampling_of(const nh_model *model, size_t count, bool velocities, bool cover)
+{
+    size_t room = 1 + 2 * model->m + model->width;
+    sampling s = {.o = model,
+                  .natural = velocities,
+                  .guard = guard_create(model, nh_chart_least_pivot),
+                  .cover = cover && is_natural(model) && velocities && !model->chart->branch,
+                  .count = count};
+    s.low = nh_alloc_array(4 * room, sizeof *s.low);
+    s.high = s.low + room;
+    s.z = s.high + room;
+    s.v = s.z + room;
+    return s;
+}
+
+static nh_points *list_of(const sampling *s)
+{
+    const nh_model *model = s->o;
+    nh_points *p = empty(s->count, model->width);
+    if (s->cover) p->beyond = empty(s->count, model->width + model->m + model->n);
+    return p;
+}
+
+static void drop_empty_beyond(nh_points *p)
+{
+    if (!p->beyond || p->beyond->count) return;
+    nh_points_free(p->beyond);
+    p->beyond = NULL;
 }
 
 /* Takes points until `count` are usable, or 40 tries for each are used up. */
 static nh_points *create(const nh_model *model, size_t count, double stretch, uint64_t seed, bool cover,
                          nh_error *error)
 {
-    nh_points *p = empty(count, model->width);
-    size_t room = 1 + 2 * model->m + model->width;
-    sampling s = {.o = model,
-                  .natural = is_natural(model),
-                  .guard = guard_create(model, nh_chart_least_pivot),
-                  .cover = cover && is_natural(model) && !model->chart->branch,
-                  .count = count};
-    s.low = nh_alloc_array(4 * room, sizeof *s.low);
-    s.high = s.low + room;
-    s.z = s.high + room;
-    s.v = s.z + room;
-    if (s.cover) p->beyond = empty(count, model->width + model->m + model->n);
+    sampling s = sampling_of(model, count, is_natural(model), cover);
+    nh_points *p = list_of(&s);
     stretched_box(model, s.natural, stretch, s.low, s.high);
     nh_sampler *sampler = nh_sampler_create(s.natural ? 1 + 2 * model->m : model->width, s.low, s.high, seed);
     for (size_t most = most_tries_per_point * count + 200; p->count < count && p->tried < most; p->tried++) {
         nh_sampler_next(sampler, s.z);
         take(&s, p);
     }
-    sampling_clear(&s, sampler);
-    if (p->beyond && p->beyond->count == 0) {
-        nh_points_free(p->beyond);
-        p->beyond = NULL;
-    }
+    nh_sampler_free(sampler);
+    sampling_clear(&s);
+    drop_empty_beyond(p);
     if (p->count == count) return p;
     nh_fail(error, NH_NUMERIC, "",
             "only %zu of %zu sample points were usable (%zu not finite, %zu without a solution of the constraints, %zu "
@@ -334,6 +353,27 @@ static nh_points *create(const nh_model *model, size_t count, double stretch, ui
     nh_error_hint(error, "give a `domain:` on which the Lagrangian and the constraints are defined");
     nh_points_free(p);
     return NULL;
+}
+
+nh_points *nh_points_given(const nh_model *model, size_t rows, bool velocities, const double *row)
+{
+    sampling s = sampling_of(model, rows, velocities, true);
+    nh_points *p = list_of(&s);
+    size_t width = velocities ? 1 + 2 * model->m : model->width;
+    for (; p->tried < rows; p->tried++) {
+        memcpy(s.z, row + p->tried * width, width * sizeof *s.z);
+        take(&s, p);
+    }
+    sampling_clear(&s);
+    drop_empty_beyond(p);
+    return p;
+}
+
+bool nh_points_natural(const nh_model *model) { return is_natural(model); }
+
+void nh_points_box(const nh_model *model, bool velocities, double *low, double *high)
+{
+    stretched_box(model, velocities, 1, low, high);
 }
 
 nh_points *nh_points_create(const nh_model *model, size_t count, double stretch, uint64_t seed, nh_error *error)

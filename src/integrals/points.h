@@ -24,6 +24,13 @@ struct nh_points {
 nh_points *nh_points_create(const nh_model *model, size_t count, double stretch, uint64_t seed, nh_error *error);
 /* The same with the points beyond the chart, as many as the sampling meets on the way. */
 nh_points *nh_points_cover(const nh_model *model, size_t count, uint64_t seed, nh_error *error);
+/* Those of the given points that are usable, which may be none: `rows` times (t, q, w, u), where u is where Newton's
+ * method begins, or, with `velocities`, (t, q, v), which are moved to the nearest allowed velocities. */
+nh_points *nh_points_given(const nh_model *model, size_t rows, bool velocities, const double *row);
+/* Are velocities of all coordinates drawn for the model, and moved onto its constraints? */
+bool nh_points_natural(const nh_model *model);
+/* The box of (t, q, w, u) or, with `velocities`, of (t, q, v). */
+void nh_points_box(const nh_model *model, bool velocities, double *low, double *high);
 void nh_points_free(nh_points *points);
 /* The number of points, including those beyond the chart. */
 size_t nh_points_equations(const nh_points *points);

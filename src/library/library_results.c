@@ -17,7 +17,10 @@
 
 const char *nh_analysis_verdict(const nh_analysis *a)
 {
-    return a->verdict == NH_FOUND ? "FOUND" : a->verdict == NH_NONE ? "NONE" : "UNDECIDED";
+    return a->verdict == NH_FOUND    ? "FOUND"
+           : a->verdict == NH_FITTED ? "FITTED"
+           : a->verdict == NH_NONE   ? "NONE"
+                                     : "UNDECIDED";
 }
 
 const char *nh_analysis_search(const nh_analysis *a) { return nh_search_word(a->search); }

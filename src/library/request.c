@@ -7,9 +7,10 @@
 #include "base/files.h"
 #include "evaluate/constant_text.h"
 #include "problem/analysis_file.h"
-#include "problem/table.h"
+#include "problem/input.h"
 #include "problem/places.h"
 #include "system/deck.h"
+#include "system/sample_grid.h"
 #include "system/system.h"
 
 static const char words_of_line[] = ", command line"; /* how the name of a completed file ends */
@@ -57,6 +58,13 @@ bool nh_request_route(nh_request *q, const char *word, nh_error *error)
     }
     nh_fail(error, NH_USAGE, "", "there is no route `%s`", word);
     return nh_analysis_file_route(word, &route, error);
+}
+
+bool nh_request_grid(nh_request *q, const char *word, nh_error *error)
+{
+    nh_grid_kind kind;
+    q->grid = word;
+    return nh_sample_grid_kind(word, &kind, error);
 }
 
 bool nh_request_method(nh_request *q, const char *word, nh_error *error)

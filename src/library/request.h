@@ -13,6 +13,7 @@ bool nh_request_number(const char *text, double *value);
 bool nh_request_velocities(nh_request *request, const char *word, nh_error *error);
 /* The same of --route. */
 bool nh_request_route(nh_request *q, const char *word, nh_error *error);
+bool nh_request_grid(nh_request *request, const char *word, nh_error *error);
 bool nh_request_method(nh_request *request, const char *word, nh_error *error);
 /* The entries of a list of integrators. */
 bool nh_request_methods(nh_request *request, const char *list, nh_error *error);

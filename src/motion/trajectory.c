@@ -27,6 +27,7 @@
 #include "graph/print.h"
 #include "graph/terms.h"
 #include "motion/sizes.h"
+#include "motion/table_end.h"
 
 /* The largest |z| along a motion; of states that are zero all along it, their size by sizes.h.  States of a chart that
  * breaks down have no such size. */
@@ -434,7 +435,11 @@ static nh_trajectory *make(const nh_trajectory_request *q, nh_error *error);
 
 nh_trajectory *nh_trajectory_create(const nh_trajectory_request *given, nh_error *error)
 {
-    if (!given->impulses) return make(given, error);
+    if (!given->impulses) {
+        nh_trajectory *plain = make(given, error);
+        if (plain && !plain->scene) nh_table_end_explain(given->model, plain->motion);
+        return plain;
+    }
     nh_trajectory_request q = *given;
     nh_event *event = with_impulses(given);
     q.event = event, q.events += q.impulses, q.impulses = 0;

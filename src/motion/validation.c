@@ -23,6 +23,7 @@
 #include "motion/automatic.h"
 #include "motion/singular_start.h"
 #include "motion/sizes.h"
+#include "motion/table_end.h"
 #include "motion/turns.h"
 
 typedef struct {
@@ -193,9 +194,12 @@ static nh_motion *motion_by(run *r, const nh_method *method, const nh_flow_optio
                             nh_error *error)
 {
     nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
-    if (r->everywhere)
-        return nh_motion_everywhere(r->dynamics, method, r->y0, r->outputs, r->times, options, NULL, used, error);
-    return nh_automatic_or(method, &problem, r->z0, r->outputs, r->times, options, used, error);
+    nh_motion *motion =
+        r->everywhere
+            ? nh_motion_everywhere(r->dynamics, method, r->y0, r->outputs, r->times, options, NULL, used, error)
+            : nh_automatic_or(method, &problem, r->z0, r->outputs, r->times, options, used, error);
+    nh_table_end_explain(r->model, motion);
+    return motion;
 }
 
 /* Computes the motion once more by CVODE Adams, unless that computed it first; compares coordinates and coordinate

@@ -9,12 +9,13 @@
 #include "graph/declared.h"
 #include "graph/parse.h"
 #include "system/deck_build.h"
+#include "system/sample_grid.h"
 
 /* ---- before the system ---- */
 
-static const char *const top_keys[] = {"name",    "system", "set",      "route", "ansatz",      "unknowns",
-                                       "samples", "seed",   "validate", "scene", "definitions", "velocities",
-                                       "title",   "doc",    "figures",  "search"};
+static const char *const top_keys[] = {"name",    "system", "set",      "route",  "ansatz",      "unknowns",
+                                       "samples", "seed",   "validate", "scene",  "definitions", "velocities",
+                                       "title",   "doc",    "figures",  "search", "grid"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 /* One of three words. */
@@ -76,6 +77,29 @@ static bool read_settings(nh_analysis_file *a, const nh_deck_node *map, nh_error
     return true;
 }
 
+/* `grid: tensor`, or `grid: {file: points.csv}`, a path from the folder of the analysis file. */
+static bool read_grid(nh_analysis_file *a, const nh_deck_node *node, nh_error *error)
+{
+    static const char *const keys[] = {"file"};
+    nh_grid_kind kind;
+    nh_error trouble;
+    nh_error_clear(&trouble);
+    if (!node) return true;
+    const nh_deck_node *word = node;
+    if (node->kind == NH_DECK_MAP && (!nh_deck_only(a->deck, node, keys, 1, error))) return false;
+    if (node->kind == NH_DECK_MAP) word = nh_deck_get(node, "file");
+    if (!word || !nh_deck_is(a->deck, word, NH_DECK_SCALAR, "a grid", error))
+        return word || nh_deck_fail(a->deck, node, 0, error, "a grid was expected: sobol, or {file: points.csv}");
+    if (!nh_sample_grid_kind(word->text, &kind, &trouble))
+        return nh_deck_fail(a->deck, word, 0, error, "%s", trouble.what), nh_error_hint(error, "%s", trouble.hint);
+    if (word != node && kind != NH_GRID_FILE) {
+        nh_deck_fail(a->deck, word, 0, error, "`%s` is no file of points, whose name ends in .csv", word->text);
+        return nh_error_hint(error, "write grid: %s", word->text);
+    }
+    a->grid = kind == NH_GRID_FILE ? nh_deck_beside(a->deck, word) : word->text;
+    return true;
+}
+
 static bool read_head(nh_analysis_file *a, nh_error *error)
 {
     static const char *const velocities[] = {"auto", "quasi", "coordinates"}, *const searches[] = {"yes", "no"};
@@ -104,6 +128,7 @@ static bool read_head(nh_analysis_file *a, nh_error *error)
     if (!nh_analysis_file_choice(a->deck, nh_deck_get(root, "search"), "search", 2, searches, &index, error))
         return false;
     a->alone = index == 1;
+    if (!read_grid(a, nh_deck_get(root, "grid"), error)) return false;
     long whole;
     if ((node = nh_deck_get(root, "samples"))) {
         if (!nh_deck_whole(a->deck, node, "samples", 16, 10000000, &whole, error)) return false;

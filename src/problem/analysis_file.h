@@ -34,7 +34,8 @@ typedef struct {
     nh_setting *setting;
     nh_chart_choice chart;
     nh_route route;
-    bool alone; /* the ansatz alone: the program's own search does not follow */
+    const char *grid; /* a word of system/sample_grid.h, or the path of points; NULL: none is chosen */
+    bool alone;       /* the ansatz alone: the program's own search does not follow */
     bool has_seed, has_samples, has_tolerance;
     double seed, samples, tolerance;
     /* the rest, after nh_analysis_file_resolve */

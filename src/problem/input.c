@@ -11,7 +11,8 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "problem/table.h"
+#include "problem/input.h"
+#include "system/table.h"
 
 enum { most_corners = 1000 };
 

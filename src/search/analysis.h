@@ -13,6 +13,7 @@
 #include "integrals/symmetry.h"
 #include "integrals/unknowns.h"
 #include "problem/observables.h"
+#include "system/sample_grid.h"
 
 /* Coefficient functions without closed form: Chebyshev series in one variable, a coordinate or t, on an interval. */
 typedef struct {
@@ -36,6 +37,8 @@ typedef struct {
     bool exact;         /* every coefficient was recognised */
     nh_letters letters; /* numbers inside of its terms that have names */
     double quotient, heldout;
+    bool fitted;       /* of a system with tables: no proof is tried (integrals/fitted.h) */
+    double fit_digits; /* of a fitted one: digits to which its coefficients are determined; INFINITY: it has none */
     nh_proof proof;
     bool asked;            /* were the coefficients refined with many digits?  */
     bool moved;            /* and did the refinement give another combination than doubles had? */
@@ -64,6 +67,32 @@ typedef struct {
     double digits;            /* digits to which its rate cancels at best, with coefficients of any accuracy */
     double rate;              /* root mean square of its rate over that of its variation, per unit of time */
 } nh_near_current;
+
+/* The grid of the sample points (search/grid.h). */
+typedef struct {
+    nh_grid_kind kind;
+    bool in_file;     /* it stands in the analysis file */
+    const char *path; /* of a file of points */
+    bool velocities;  /* its rows are (t, q, v), else (t, q, w) */
+    size_t rows;
+    double *row;
+} nh_grid;
+
+typedef struct {
+    const char *name; /* "z' < 0" */
+    size_t points;
+} nh_grid_branch;
+
+enum { NH_GRID_MOST_BRANCHES = 8 };
+
+/* What became of it: of the largest linear problem that was solved. */
+typedef struct {
+    size_t needed;                                      /* of a number of points that was refused: enough */
+    size_t used, variables;                             /* variables: of a tensor or sparse grid, else 0 */
+    size_t not_finite, not_solved, degenerate, outside; /* rejected: why */
+    size_t branches;
+    nh_grid_branch branch[NH_GRID_MOST_BRANCHES];
+} nh_grid_report;
 
 /* One linear problem and its answer. */
 typedef struct {
@@ -185,6 +214,8 @@ typedef struct {
     nh_options options;
     double pace; /* Omega of problem/time_scale.h where the system was found fast (or long), else 0 */
     nh_route route;
+    nh_grid grid;
+    bool samples_in_file; /* their number stands in the analysis file */
     size_t local_maximum; /* as many integrals as there are near a regular point: 2 m - k */
     uint64_t left_out;    /* rows of the search (staged_search.h) that a developer leaves out, bit i for row i */
     bool derived;         /* it is of a system that the search made from the user's (search/other_system.h) */
@@ -216,6 +247,7 @@ struct nh_analysis {
     const char *ansatz_note; /* description of what was tried */
     /* beyond: points where the chart's pivot is near zero, from the multiplier form */
     size_t samples, beyond, rejected;
+    nh_grid_report grid;
     size_t stages, stage_capacity;
     nh_stage_record *stage;        /* of the staged search; empty with an analysis file */
     uint64_t used;                 /* rows of the search that found something, bit i for row i */

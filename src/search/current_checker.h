@@ -19,4 +19,9 @@ typedef struct {
     bool constructs; /* what is found is of the construction, of which the terms are the simplest */
 } nh_current_checker;
 
+/* max |Gamma(phi)| / max(sum |terms of it|, 1e-3 |dphi| |Gamma|) over the points. */
+double nh_currents_residual(const nh_model *model, const nh_points *points, nh_ex phi);
+/* Decides on a candidate of a system with tables: its formula, its residual and the digits of its coefficients. */
+void nh_currents_fit(const nh_current_checker *checker, const nh_candidate *candidate, nh_current *current);
+
 #endif

@@ -2,7 +2,7 @@
  *
  *     nh_echelon_refine                 a short support, fitted again
  *     nh_coefficients_assemble          many digits, exact coefficients, letters for numbers inside of terms
- *     heldout_residual                  points that no fit has seen
+ *     nh_currents_residual              points that no fit has seen
  *     nh_prove_claim                    proof, or digits in balls                  [docs/method.md, sec. 4]
  *     keeps                             no certificate: left out, perhaps as almost conserved
  *     nh_currents_hold, _continue       everywhere? else a piece, or its continuation [docs/method.md, sec. 5]
@@ -11,7 +11,6 @@
  * At the end all currents are ranked once more: doubles propose, balls decide. */
 #include "search/currents.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -21,6 +20,7 @@
 #include "exact/normal.h"
 #include "graph/dag.h"
 #include "graph/print.h"
+#include "integrals/fitted.h"
 #include "search/coefficients.h"
 #include "search/counted.h"
 #include "search/current_list.h"
@@ -28,35 +28,7 @@
 #include "search/described.h"
 #include "search/specials.h"
 
-enum { heldout_count = 256, generic_count = 24, open_digits = 12 };
-
-/* max |Gamma(Phi)| / max(sum |terms of it|, 1e-3 |dPhi| |Gamma|). */
-static double heldout_residual(const nh_model *model, const nh_points *points, nh_ex phi)
-{
-    size_t width = 1 + model->m + model->n, count = points->count;
-    nh_ex *e = nh_alloc_array(2 * width, sizeof *e);
-    double *value = nh_alloc_array(2 * width * count, sizeof *value), worst = 0;
-    for (size_t j = 0; j < width; j++) {
-        e[j] = j == 0 ? nh_int(model->dag, 1) : j <= model->m ? model->rho[j - 1] : model->a[j - 1 - model->m];
-        e[width + j] = nh_diff(model->dag, phi, model->chart->symbol[j]);
-    }
-    nh_points_evaluate(points, model, 2 * width, e, value);
-    for (size_t p = 0; p < count; p++) {
-        double sum = 0, size = 0, g = 0, speed = 0;
-        for (size_t j = 0; j < width; j++) {
-            double x = value[j * count + p], y = value[(width + j) * count + p];
-            sum += x * y;
-            size += fabs(x * y);
-            g += y * y;
-            speed += x * x;
-        }
-        double r = fabs(sum) / fmax(fmax(size, 1e-3 * sqrt(g * speed)), DBL_MIN);
-        if (isfinite(r)) worst = fmax(worst, r);
-    }
-    nh_free(value);
-    nh_free(e);
-    return worst;
-}
+enum { heldout_count = 256, generic_count = 24, open_digits = 12, least_of_a_fit = 2, digits_of_a_fit = 3 };
 
 /* Decides whether it is a current. */
 static void decide(nh_current_checker *checker, nh_candidate *c, nh_current *f)
@@ -65,9 +37,10 @@ static void decide(nh_current_checker *checker, nh_candidate *c, nh_current *f)
     nh_model *model = result->question->model;
     const nh_options *options = &result->question->options;
     f->quotient = c->quotient;
+    if (nh_fitted_is(model)) return nh_currents_fit(checker, c, f);
     nh_claim claim = {0};
     f->phi = nh_coefficients_assemble(model, c, options, f, &claim);
-    f->heldout = heldout_residual(model, checker->heldout, f->phi);
+    f->heldout = nh_currents_residual(model, checker->heldout, f->phi);
     if (nh_coefficients_refuted(f, options)) return;
     f->proof = nh_prove_claim(model, f->phi, claim, options);
     nh_coefficients_certify(options, f);
@@ -130,6 +103,20 @@ static double relative_rate(const nh_model *model, const nh_points *points, nh_e
     return variation > 0 && isfinite(rate) ? sqrt(rate / variation) : NAN;
 }
 
+/* Is it, to two digits, a function of a nearly conserved quantity that is recorded? */
+static bool is_noted(const nh_current_checker *checker, nh_ex phi)
+{
+    const nh_analysis *r = checker->result;
+    double sure = r->question->options.sure;
+    for (size_t k = 0; k < r->almosts; k++) {
+        nh_ex pair[2] = {r->almost[k].phi, phi};
+        nh_independence kind[2];
+        nh_independence_test(r->question->model, checker->generic, 2, pair, NULL, sure, sure, kind, NULL);
+        if (kind[1] != NH_INDEPENDENT) return true;
+    }
+    return false;
+}
+
 /* Records a combination that is no current, or not certainly one, although doubles could not tell: as a slow quantity
  * when it changes slowly.  The slowest come first. */
 static void note_almost(nh_current_checker *checker, const nh_current *f, double digits)
@@ -137,7 +124,9 @@ static void note_almost(nh_current_checker *checker, const nh_current *f, double
     nh_analysis *result = checker->result;
     double rate = relative_rate(result->question->model, checker->generic, f->phi),
            unit = result->question->pace > 0 ? result->question->pace : 1;
-    if (!(rate <= result->question->options.slow * unit) || digits < NH_LEAST_ALMOST) return;
+    if (!(rate <= result->question->options.slow * unit) || digits < (f->fitted ? least_of_a_fit : NH_LEAST_ALMOST))
+        return;
+    if (f->fitted && is_noted(checker, f->phi)) return;
     if (!result->almost) result->almost = nh_arena_alloc(result->arena, NH_MOST_ALMOST * sizeof *result->almost);
     size_t at = result->almosts;
     while (at > 0 && result->almost[at - 1].rate > rate) at--;
@@ -156,6 +145,8 @@ static bool keeps(nh_current_checker *checker, const nh_current *f, bool certain
 {
     nh_analysis *result = checker->result;
     const nh_options *options = &result->question->options;
+    if (f->fitted && f->heldout <= options->heldout && f->fit_digits >= digits_of_a_fit) return true;
+    if (f->fitted) return note_almost(checker, f, -log10(f->heldout)), false;
     if (nh_coefficients_certain(f, options)) return true;
     if (nh_coefficients_refuted(f, options)) {
         note_almost(checker, f, f->refined);
@@ -373,9 +364,10 @@ bool nh_currents_add_further(nh_current_checker *checker, nh_candidate *candidat
 static bool add_related(nh_current_checker *checker, nh_ex phi, double quotient)
 {
     nh_analysis *result = checker->result;
-    nh_current f = {.phi = phi, .exact = true, .quotient = quotient};
+    nh_current f = {.phi = phi, .exact = true, .quotient = quotient, .fit_digits = INFINITY};
     if (nh_currents_known(checker, phi, true)) return false;
-    f.heldout = heldout_residual(result->question->model, checker->heldout, phi);
+    f.fitted = nh_fitted_is(result->question->model);
+    f.heldout = nh_currents_residual(result->question->model, checker->heldout, phi);
     f.proof = nh_prove_claim(result->question->model, phi, (nh_claim){.free = true, .related = true},
                              &result->question->options);
     bool good = keeps(checker, &f, true) && holds_everywhere(checker, &f);
@@ -398,9 +390,9 @@ bool nh_currents_add_series(nh_current_checker *checker, nh_ex phi, const nh_ser
     nh_analysis *result = checker->result;
     nh_model *model = result->question->model;
     nh_current f = {.phi = phi, .series = series, .quotient = pow(10, -digits), .asked = true, .refined = digits};
-    if (nh_declared_unspecified(model->dag)) return false; /* of the stand-in */
+    if (nh_declared_unspecified(model->dag) || nh_fitted_is(model)) return false; /* of the stand-in; of a table */
     if (nh_currents_known(checker, f.phi, f.proof.proved)) return false;
-    f.heldout = heldout_residual(model, checker->heldout, phi);
+    f.heldout = nh_currents_residual(model, checker->heldout, phi);
     f.proof = nh_prove_current(model, phi, false, &result->question->options);
     nh_coefficients_certify(&result->question->options, &f);
     if (!keeps(checker, &f, true)) return false;
@@ -418,7 +410,7 @@ static void miss_energy(nh_current_checker *checker)
     const nh_model *model = result->question->model;
     for (size_t k = 0; k < result->list->count; k++)
         if (result->list->found[k].energy) return;
-    if (!(heldout_residual(model, checker->generic, model->E) > result->question->options.heldout)) return;
+    if (!(nh_currents_residual(model, checker->generic, model->E) > result->question->options.heldout)) return;
     nh_ex rate = nh_model_gamma(model, model->E);
     if (nh_complexity(model->dag, rate) < 10 * longest) rate = nh_simplify(model->dag, rate);
     rate = nh_chart_in_velocities(model->chart, nh_chart_shown(model->chart, rate));

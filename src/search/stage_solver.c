@@ -29,6 +29,7 @@
 #include "integrals/fixed.h"
 #include "integrals/prove.h"
 #include "search/current_list.h"
+#include "search/grid.h"
 #include "search/other_values.h"
 #include "search/search.h"
 
@@ -174,6 +175,22 @@ static size_t points_for(const nh_sectors *sectors)
     return (size_t)fmax(least_points, points_per_column * (double)sectors->largest);
 }
 
+typedef struct {
+    const nh_options *options;
+    const nh_model *model;
+    const nh_ansatz *ansatz;
+    const nh_sectors *sectors;
+    const nh_field_bases *fields; /* NULL: of currents */
+} in_sectors;
+
+static nh_nullspace *solve_sectors(void *context, const nh_points *points, nh_error *error)
+{
+    const in_sectors *p = context;
+    nh_nullspace_options limits = nh_nullspace_options_from(p->options);
+    return nh_sectors_solve(p->model, p->ansatz, p->sectors, p->fields, points, &limits,
+                            nh_threads(p->options->threads), error);
+}
+
 /* The number of columns is limited, in all and in the largest part. */
 nh_solved nh_stage_solver_solve(nh_stage_solver *solver, size_t families, const nh_family *family)
 {
@@ -196,13 +213,22 @@ nh_solved nh_stage_solver_solve(nh_stage_solver *solver, size_t families, const 
         nh_ansatz_free(s.ansatz);
         s.ansatz = NULL;
     } else if (sectors.count) {
-        nh_nullspace_options limits = nh_nullspace_options_from(options);
+        in_sectors p = {options, model, s.ansatz, &sectors, solver->fields};
+        r->grid.needed = 0;
         uint64_t seed = (uint64_t)options->seed + r->stages;
-        s.fit = solver->fields ? nh_points_create(model, count, 1, seed, &ignored)
-                               : nh_points_cover(model, count, seed, &ignored);
-        if (s.fit)
-            s.nullspace = nh_sectors_solve(model, s.ansatz, &sectors, solver->fields, s.fit, &limits,
-                                           nh_threads(options->threads), &ignored);
+        /* grid and samples of an analysis with an ansatz are those of the ansatz */
+        if (r->question->analysis && r->question->analysis->families) {
+            s.fit = nh_points_cover(model, count, seed, &ignored);
+            s.nullspace = s.fit ? solve_sectors(&p, s.fit, &ignored) : NULL;
+        } else {
+            s.nullspace = nh_grid_solve(r, s.ansatz, sectors.largest, (size_t)options->samples, count, seed,
+                                        solve_sectors, &p, &s.fit, &ignored);
+        }
+        if (!s.nullspace && r->grid.needed) {
+            s.limit = (nh_limit){"samples", (double)r->grid.needed};
+            nh_ansatz_free(s.ansatz);
+            s.ansatz = NULL;
+        }
     }
     nh_sectors_clear(&sectors);
     return s;

@@ -57,6 +57,8 @@ const char *nh_deck_spelled_all(nh_arena *arena, const char *text);
 const char *nh_deck_escaped_letter(const nh_deck *deck, const nh_deck_node *node);
 const nh_deck_node *nh_deck_root(const nh_deck *deck);
 const char *nh_deck_name(const nh_deck *deck);
+/* The path of the file that a scalar names, from the folder of the file in which it stands. */
+const char *nh_deck_beside(nh_deck *deck, const nh_deck_node *node);
 
 /* The value of `key` in a map, or NULL. */
 const nh_deck_node *nh_deck_get(const nh_deck_node *map, const char *key);

@@ -144,6 +144,13 @@ static bool is_shown(const char *path)
     return shown;
 }
 
+const char *nh_deck_beside(nh_deck *deck, const nh_deck_node *node)
+{
+    const char *name = node->deck ? node->deck->name : deck->name, *slash = strrchr(name, '/');
+    int folder = slash && node->text[0] != '/' ? (int)(slash - name) + 1 : 0;
+    return nh_arena_printf(deck->arena, "%.*s%s", folder, name, node->text);
+}
+
 static bool include(nh_deck *deck, int depth, nh_deck_prepare *prepare, nh_error *error)
 {
     if (prepare && !prepare(deck, error)) return false;
@@ -155,9 +162,7 @@ static bool include(nh_deck *deck, int depth, nh_deck_prepare *prepare, nh_error
     if (depth > deepest)
         return nh_deck_fail(deck, node, 0, error,
                             "files include each other more than %d deep: does one include itself?", deepest);
-    const char *slash = strrchr(deck->name, '/');
-    int folder = slash && node->text[0] != '/' ? (int)(slash - deck->name) + 1 : 0;
-    char *path = nh_arena_printf(deck->arena, "%.*s%s", folder, deck->name, node->text);
+    const char *path = nh_deck_beside(deck, node);
     size_t length;
     nh_error unreadable;
     nh_error_clear(&unreadable);

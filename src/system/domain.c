@@ -17,10 +17,12 @@ static void default_range(const nh_system *system, nh_ex symbol, double *low, do
         *low = -half;
         *high = half;
     }
+    bool first = true;
     for (size_t i = 0; i < system->reaches; i++) {
         if (system->reach[i].symbol != symbol) continue;
-        *low = fmin(*low, system->reach[i].low);
-        *high = fmax(*high, system->reach[i].high);
+        *low = first ? system->reach[i].low : fmin(*low, system->reach[i].low);
+        *high = first ? system->reach[i].high : fmax(*high, system->reach[i].high);
+        first = false;
     }
 }
 

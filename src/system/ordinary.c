@@ -10,10 +10,11 @@
 #include "system/deck_build.h"
 
 static const char *const top_keys[] = {
-    "name",      "title",      "source",   "parameters", "coordinates", "definitions", "lagrangian",  "constraints",
-    "dependent", "velocities", "forces",   "domain",     "known",       "doc",         "bodies",      "joints",
-    "gravity",   "wheels",     "symmetry", "draw",       "robustness",  "include",     "urdf",        "base",
-    "notes",     "levels",     "points",   "springs",    "dampers",     "actuators",   "dissipation", "functions"};
+    "name",        "title",     "source",      "parameters", "coordinates", "definitions", "lagrangian",
+    "constraints", "dependent", "velocities",  "forces",     "domain",      "known",       "doc",
+    "bodies",      "joints",    "gravity",     "wheels",     "symmetry",    "draw",        "robustness",
+    "include",     "urdf",      "base",        "notes",      "levels",      "points",      "springs",
+    "dampers",     "actuators", "dissipation", "functions",  "tables"};
 enum { top_key_count = sizeof top_keys / sizeof *top_keys };
 
 static bool among(const char *const *words, size_t count, const char *word)

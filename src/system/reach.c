@@ -5,6 +5,8 @@
 #include "evaluate/tape.h"
 #include "exact/walls.h"
 #include "graph/dag.h"
+#include "graph/declared.h"
+#include "graph/function.h"
 #include "system/domain.h"
 #include "system/embedding_internal.h"
 
@@ -80,6 +82,38 @@ static void reach(nh_system *system, nh_ex wall, nh_ex symbol)
     system->reach[system->reaches++] = (nh_interval){symbol, low, high};
 }
 
+/* ---- tables ---- */
+
+/* A coordinate without an interval of the file that is an argument of a table gets that of the table; an angle the part
+ * of its own that the table has. */
+static void reach_table(nh_system *system, nh_ex argument, size_t n, const double *node)
+{
+    double low, high;
+    for (size_t i = 0; i < system->reaches; i++)
+        if (system->reach[i].symbol == argument) return;
+    for (size_t i = 0; i < system->coordinates; i++) {
+        const nh_coordinate *c = &system->coordinate[i];
+        if (c->q != argument || is_given(system, c->q)) continue;
+        nh_domain_range(system, c->q, &low, &high);
+        bool angle = c->type == NH_ANGLE;
+        low = angle ? fmax(low, node[0]) : node[0], high = angle ? fmin(high, node[n - 1]) : node[n - 1];
+        if (low < high) system->reach[system->reaches++] = (nh_interval){c->q, low, high};
+    }
+}
+
+static void reach_tables(nh_system *system, nh_ex e)
+{
+    nh_dag *d = system->dag;
+    NH_LIST(call);
+    size_t calls = nh_functions_in(d, e, &call);
+    for (size_t i = 0; i < calls; i++) {
+        if (nh_function_of(d, call[i]) != NH_TABLE) continue;
+        const nh_spline *s = nh_declared_table(d, (size_t)nh_number_of(d, nh_child(d, call[i], 0)).p);
+        reach_table(system, nh_child(d, call[i], 2), s->nx, s->x);
+        if (s->y) reach_table(system, nh_child(d, call[i], 3), s->ny, s->y);
+    }
+}
+
 void nh_reach_walls(nh_system *system)
 {
     nh_walls walls = {0};
@@ -88,9 +122,14 @@ void nh_reach_walls(nh_system *system)
         nh_walls_add(&walls, system->dag, system->force[i]);
     for (size_t a = 0; a < system->constraints; a++)
         nh_walls_add(&walls, system->dag, nh_sub(system->dag, system->constraint[a].lhs, system->constraint[a].rhs));
-    if (walls.count) system->reach = nh_arena_alloc(system->arena, walls.count * sizeof *system->reach);
+    system->reach = nh_arena_alloc(system->arena, (walls.count + system->coordinates + 1) * sizeof *system->reach);
     for (size_t i = 0; i < walls.count; i++) {
         nh_ex symbol = 0;
         if (!walls.edge[i] && only_symbol(system, walls.e[i], &symbol)) reach(system, walls.e[i], symbol);
     }
+    if (!nh_declared_has_table(system->dag)) return;
+    reach_tables(system, system->lagrangian);
+    for (size_t i = 0; i < system->coordinates && system->has_forces; i++) reach_tables(system, system->force[i]);
+    for (size_t a = 0; a < system->constraints; a++)
+        reach_tables(system, nh_sub(system->dag, system->constraint[a].lhs, system->constraint[a].rhs));
 }

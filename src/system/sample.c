@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-enum { most_sobol = 40 }; /* dimensions that GSL has the sequence for */
+enum { most_sobol = 40, most_halton = 1229 }; /* dimensions that GSL has the sequences for */
 
 struct nh_sampler {
     gsl_qrng *qrng;
@@ -58,4 +58,26 @@ void nh_sampler_next(nh_sampler *s, double *point)
         double x = i < s->sobol ? point[i] + s->shift[i] : nh_random(&s->state);
         point[i] = s->low[i] + s->width[i] * (x - floor(x));
     }
+}
+
+double *nh_sample_halton(size_t dimension, size_t count, uint64_t seed)
+{
+    gsl_set_error_handler_off(); /* GSL's default handler aborts */
+    size_t of_sequence = dimension < most_halton ? dimension : most_halton;
+    double *node = nh_alloc_array(count * dimension + 1, sizeof *node);
+    double *shift = nh_alloc_array(dimension + 1, sizeof *shift);
+    uint64_t state = seed * 0x2545f4914f6cdd1du + dimension;
+    for (size_t d = 0; d < dimension; d++) shift[d] = nh_random(&state);
+    gsl_qrng *sequence = of_sequence ? nh_memory_got(gsl_qrng_alloc(gsl_qrng_halton, (unsigned)of_sequence)) : NULL;
+    for (size_t p = 0; p < count && sequence; p++) {
+        double *at = node + p * dimension;
+        gsl_qrng_get(sequence, at);
+        for (size_t d = 0; d < dimension; d++) {
+            double x = d < of_sequence ? at[d] + shift[d] : nh_random(&state);
+            at[d] = 2 * (x - floor(x)) - 1;
+        }
+    }
+    if (sequence) gsl_qrng_free(sequence);
+    nh_free(shift);
+    return node;
 }

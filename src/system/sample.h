@@ -18,6 +18,10 @@ nh_sampler *nh_sampler_create(size_t dimension, const double *low, const double 
 void nh_sampler_free(nh_sampler *sampler);
 void nh_sampler_next(nh_sampler *sampler, double *point); /* dimension values, low <= value <= high */
 
+/* `count` points of Halton's sequence in [-1, 1]^dimension, shifted by the seed, one after another; the caller frees
+ * them. */
+double *nh_sample_halton(size_t dimension, size_t count, uint64_t seed);
+
 /* A pseudo-random number in [0, 1) from a seed that is advanced (splitmix64). */
 double nh_random(uint64_t *state);
 

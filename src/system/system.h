@@ -104,7 +104,7 @@ typedef struct {
     nh_named *definition;
     nh_interval *interval; /* the sampling box as far as the user gave it */
     size_t reaches;
-    nh_interval *reach;       /* default intervals that were widened (system/system_internal.h) */
+    nh_interval *reach;       /* in place of default intervals (system/system_internal.h) */
     nh_named *current, *trap; /* known currents; functions known not to be conserved */
     nh_chain *chain;          /* bodies and joints; NULL when the file has none */
     size_t symmetries;        /* fields on configuration space that the file names as generators of a group */
@@ -189,6 +189,9 @@ double nh_system_number(const nh_system *system, nh_ex e);
 
 /* Refuses a system with a function without a value: `what` needs numbers.  Returns false then. */
 bool nh_system_needs_values(const nh_system *system, const char *what, nh_error *error);
+
+/* Refuses a system with a table: `what` needs a formula, as balls and power series do.  Returns false then. */
+bool nh_system_needs_formulas(const nh_system *system, const char *what, nh_error *error);
 
 /* Refuses a level (0, 1, ..) that motions leave, or of which that is not decided.  Returns false. */
 bool nh_system_refuse_level(const nh_system *system, size_t level, bool proved, nh_error *error);

@@ -152,3 +152,11 @@ bool nh_system_needs_values(const nh_system *system, const char *what, nh_error 
     nh_fail(error, NH_INPUT, system->name, "%s needs numbers, but the function `%s` has no value", what, name);
     return nh_error_hint(error, "give it one, for example --set \"%s(r) = r^2/2\", or as `value:` in the file", name);
 }
+
+bool nh_system_needs_formulas(const nh_system *system, const char *what, nh_error *error)
+{
+    const char *name = nh_declared_has_table(system->dag);
+    if (!name) return true;
+    nh_fail(error, NH_INPUT, system->name, "%s needs formulas, but `%s` is a table, which has none", what, name);
+    return nh_error_hint(error, "analyze, verify, simulate and benchmark work with tables");
+}

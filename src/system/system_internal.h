@@ -49,6 +49,7 @@ bool nh_system_read_right_side(nh_system_reader *r, const nh_deck_node *node, un
 bool nh_system_apply_settings(nh_system_reader *r, size_t count, const nh_setting *setting);
 /* `functions:`, and those settings that give a value to one: "V(r)". */
 bool nh_system_read_functions(nh_system_reader *r, size_t count, const nh_setting *setting);
+bool nh_system_read_tables(nh_system_reader *r); /* `tables:` */
 bool nh_system_is_function_setting(const nh_setting *setting);
 bool nh_system_new_name(nh_system_reader *r, const nh_deck_node *node); /* is it free and well formed? */
 bool nh_system_read_chart(nh_system_reader *r);
@@ -89,9 +90,10 @@ bool nh_orientation_velocities(nh_system_reader *r);
 
 /* Default sampling intervals that reach beyond the walls of functions of one symbol.
  *
- * |t - 2| is 2 - t all over 0 < t < 1: samples from there alone would show what holds for t < 2 only.  So where a
- * wall (exact/walls.h) of the Lagrangian, a force or a constraint depends on one symbol alone, and the default
- * interval lies on one side of it, the interval is widened to half of its width beyond. */
+ * |t - 2| is 2 - t all over 0 < t < 1: samples from there alone would show what holds for t < 2 only.  So where a wall
+ * (exact/walls.h) of the Lagrangian, a force or a constraint depends on one symbol alone, and the default interval
+ * lies on one side of it, the interval is widened to half of its width beyond.  A coordinate that is an argument of a
+ * table has the interval of the table. */
 
 /* Sets system->reach; intervals that the file gives are left as they are. */
 void nh_reach_walls(nh_system *system);

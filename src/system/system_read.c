@@ -457,10 +457,10 @@ static bool read_all(reader *r, size_t settings, const nh_setting *setting)
     system->t = nh_symbol(system->dag, "t");
     if (!read_parameters(r) || !nh_system_apply_settings(r, settings, setting)) return false;
     return nh_system_read_tree(r) && read_coordinates(r) && read_quasi_names(r) &&
-           nh_system_read_functions(r, settings, setting) && read_definitions(r, false) && nh_system_read_chain(r) &&
-           nh_system_read_points(r) && read_definitions(r, true) && read_lagrangian(r) && read_constraints(r) &&
-           read_dependent(r) && nh_system_read_chart(r) && nh_system_read_forces(r) && nh_system_read_domain(r) &&
-           nh_system_read_levels(r) && nh_system_read_symmetry(r) &&
+           nh_system_read_functions(r, settings, setting) && nh_system_read_tables(r) && read_definitions(r, false) &&
+           nh_system_read_chain(r) && nh_system_read_points(r) && read_definitions(r, true) && read_lagrangian(r) &&
+           read_constraints(r) && read_dependent(r) && nh_system_read_chart(r) && nh_system_read_forces(r) &&
+           nh_system_read_domain(r) && nh_system_read_levels(r) && nh_system_read_symmetry(r) &&
            nh_system_read_drawing(r)
            /* claims about the whole system */
            && (system->levels || (nh_system_read_known(r) && nh_system_read_robustness(r)));

@@ -220,7 +220,7 @@ class Analysis(Result):
 
     @property
     def verdict(self) -> str:
-        """"FOUND", "NONE" or "UNDECIDED"."""
+        """"FOUND", "FITTED", "NONE" or "UNDECIDED"."""
         return library().nh_analysis_verdict(self._address).decode()
 
     @property

@@ -12,7 +12,8 @@ typedef struct {
     size_t index;      /* 1: a first column without a name, the numbers of rows, is left out; otherwise 0 */
     const char **name; /* columns */
     const char **cell; /* rows x columns, row by row: text, which may be empty */
-    size_t *line;      /* rows: in the file, from 1 */
+    size_t heading;    /* the line of names in the file, from 1 */
+    size_t *line;      /* rows: likewise */
 } nh_table;
 
 /* In the arena; fields may stand in double quotes, empty lines and those that begin with # are left out.  NULL with
@@ -24,12 +25,5 @@ bool nh_table_is_time(const char *name);
 size_t nh_table_column(const nh_table *table, const char *name, nh_error *error);
 /* The number in a cell; false with its place. */
 bool nh_table_number(nh_arena *arena, const nh_table *table, size_t row, size_t column, double *out, nh_error *error);
-
-/* Functions of time that act on a system, as expressions of t. */
-
-/* `text` is an expression, which is returned as it is, or FILE.csv:COLUMN: then the expression is the broken line
- * through the values of that column over the column t of the file, constant before and after.  In the arena; NULL with
- * a message. */
-const char *nh_input_text(nh_arena *arena, const char *name, const char *text, nh_error *error);
 
 #endif

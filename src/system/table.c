@@ -1,5 +1,5 @@
 /* table: reads separated values: a line of names, then rows with as many fields. */
-#include "problem/table.h"
+#include "system/table.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -127,7 +127,7 @@ static bool read_lines(nh_arena *arena, nh_table *t, char *text, nh_error *error
         if (!line[strspn(line, " \t")] || *line == '#') continue;
         if (t->columns && (t->rows + 1) * t->columns > fields + lines)
             return nh_fail(error, NH_INPUT, t->path, "the lines have different numbers of fields");
-        if (!separator) read_names(arena, t, line, separator = separator_of(line));
+        if (!separator) t->heading = number, read_names(arena, t, line, separator = separator_of(line));
         else if (!read_line(arena, t, line, separator, number, error)) return false;
     }
     return separator == ',' || read_commas(arena, t, error);
