@@ -41,6 +41,8 @@ static void merge_options(nh_analysis_question *question, const nh_request *q)
     const nh_analysis_file *a = question->analysis;
     question->options = q->options;
     if (question->pace > 0 && !q->until_given) question->options.until /= question->pace;
+    question->route = a ? a->route : NH_ROUTE_BOTH;
+    if (q->route) nh_analysis_file_route(q->route, &question->route, NULL);
     if (question->model) nh_fitted_options(question->model, &question->options);
     if (!a) return;
     if (a->has_seed && !q->seed_given) question->options.seed = a->seed;
@@ -418,8 +420,6 @@ static bool run(nh_analysis *result, nh_analysis_question *question, const nh_re
     nh_progress("the system file", -1);
     if (!read_files(result, question, q, error)) return false;
     merge_options(question, q);
-    question->route = question->analysis ? question->analysis->route : NH_ROUTE_BOTH;
-    if (q->route) nh_analysis_file_route(q->route, &question->route, NULL);
     result->timing.read = lap(&clock);
     nh_progress("the equations of motion", -1);
     nh_budget_begin(question->options.work);
