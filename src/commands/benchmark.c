@@ -375,6 +375,7 @@ nh_benchmark *nh_benchmark_run(const nh_request *request, double budget, nh_erro
         return NULL;
     }
     c.fit_alone = request->fit;
+    c.every_grid = request->fit && !request->grid;
     if (!request->fit) {
         list_candidates(&c);
         list_elsewhere(&c);

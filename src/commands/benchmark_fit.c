@@ -31,6 +31,8 @@ enum {
     most_field_columns = 400,
     most_repeats = 5
 };
+enum { other_grids = 3 };
+static const nh_grid_kind other_grid[other_grids] = {NH_GRID_HALTON, NH_GRID_TENSOR, NH_GRID_SPARSE};
 /* sample points per column: all of them where the discrete problem alone is asked for */
 static const double density[densities] = {1.1, 1.5, 4, 10, 25};
 static const double in_span = 1e-10; /* distance of a known current from all columns, at rounding */
@@ -189,6 +191,33 @@ static void measure(fit *f, size_t points_wanted, bool chebyshev, bool symmetry,
 /* The most careful method of each route gives the dimension: Chebyshev polynomials, generalized, most points. */
 static bool past(const fit *f) { return nh_interrupted() || nh_clock() >= f->deadline; }
 
+/* One solution, kept where it is good; `careful`: it decides which dimension the route wants. */
+static void keep(fit *f, size_t points, int way, bool careful, bool known[2])
+{
+    nh_benchmark *out = f->c->out;
+    nh_fitted *m = &out->fit[out->fits];
+    bool symmetry = way & 4;
+    measure(f, points, !(way & 1), symmetry, way & 2, m);
+    if (!m->good) return;
+    out->fits++;
+    if (careful) f->wanted[symmetry] = m->dimension, known[symmetry] = true;
+    m->wanted = f->wanted[symmetry];
+    m->right = known[symmetry] && !m->undecided && m->dimension == m->wanted && !(m->error > f->options.agreement);
+}
+
+/* The other grids, by the most careful method of each route. */
+static void on_other_grids(fit *f, size_t points, bool known[2])
+{
+    const nh_grid *own = f->grid;
+    for (size_t g = 0; g < other_grids; g++)
+        for (int way = 0; way < ways && !past(f); way += 4) {
+            nh_grid other = {.kind = other_grid[g]};
+            f->grid = &other;
+            if (way == 0 || known[1]) keep(f, points, way, false, known);
+        }
+    f->grid = own;
+}
+
 static void measure_level(fit *f)
 {
     nh_benchmark *out = f->c->out;
@@ -198,16 +227,9 @@ static void measure_level(fit *f)
         size_t points = (size_t)ceil(density[d] * (double)n) + 16;
         for (int way = 0; way < ways && !past(f); way++) {
             if ((way & 4) && d + 1 < f->end && !known[1]) continue; /* too large for this route */
-            nh_fitted *m = &out->fit[out->fits];
-            measure(f, points, !(way & 1), way & 4, way & 2, m);
-            if (!m->good) continue;
-            out->fits++;
-            bool symmetry = way & 4, careful = d + 1 == f->end && !(way & 3);
-            if (careful) f->wanted[symmetry] = m->dimension, known[symmetry] = true;
-            m->wanted = f->wanted[symmetry];
-            m->right =
-                known[symmetry] && !m->undecided && m->dimension == m->wanted && !(m->error > f->options.agreement);
+            keep(f, points, way, d + 1 == f->end && !(way & 3), known);
         }
+        if (f->c->every_grid) on_other_grids(f, points, known);
     }
     out->fits_partial |= past(f);
 }
@@ -287,7 +309,7 @@ void nh_benchmark_fit(nh_benchmark_work *c, const nh_grid *grid, double seconds)
     f.end = c->fit_alone ? densities : usual_end;
     nh_ex *letter = nh_alloc_array(3 * f.model->m + 1, sizeof *letter);
     size_t letters = nh_fit_letters(f.model, letter);
-    out->fit = nh_arena_alloc(out->arena, (most_levels * densities * ways + 1) * sizeof *out->fit);
+    out->fit = nh_arena_alloc(out->arena, (most_levels * densities * (ways + 2 * other_grids) + 1) * sizeof *out->fit);
     f.ranges = nh_points_create(f.model, heldout_points, 1, seed, &ignored);
     f.heldout = nh_points_create(f.model, 2 * (size_t)f.options.benchmark_columns, 1, seed + 77, &ignored);
     for (size_t degree = 1; f.ranges && f.heldout && degree <= most_levels && !past(&f); degree++)

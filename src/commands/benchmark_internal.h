@@ -111,10 +111,10 @@ typedef struct {
      * 0: the deadline */
     double effort;
     nh_options options;
-    bool project, once; /* the time does not matter; steps are limited instead */
-    bool fit_alone;     /* the discrete problem alone, with more numbers of samples */
-    size_t reached;     /* outputs of the longest run of the reference */
-    bool hurried;       /* the reference ran out of time */
+    bool project, once;         /* the time does not matter; steps are limited instead */
+    bool fit_alone, every_grid; /* the discrete problem alone, with more numbers of samples; on all kinds of grids */
+    size_t reached;             /* outputs of the longest run of the reference */
+    bool hurried;               /* the reference ran out of time */
 } nh_benchmark_work;
 
 /* Opens the system, formulations and charts of a request; close it also on failure (and free `out`). */
