@@ -443,6 +443,67 @@ Test(own_systems, what_is_called_conserved_is_so_along_motions_by_hand_and_nothi
         if (sweep_tries(i, 1, 5)) expect_as_by_hand(&OWN[i]);
 }
 
+/* ---- equations of motion, and questions ---- */
+
+/* The accelerations of all coordinates, by hand from velocities a little later and before. */
+static void by_hand(const own_system *s, double t, const double *z, double *q, double *v, double *out)
+{
+    static const double h = 1e-4;
+    double rate[OWN_SIZE], at[OWN_SIZE], place[OWN_COORDINATES], side[2][OWN_COORDINATES];
+    s->rates(t, z, rate);
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < s->size; i++) at[i] = z[i] + (k ? h : -h) * rate[i];
+        s->place(t + (k ? h : -h), at, place, side[k]);
+    }
+    s->place(t, z, q, v);
+    for (size_t i = 0; i < OWN_COORDINATES; i++) out[i] = (side[1][i] - side[0][i]) / (2 * h);
+}
+
+Test(own_systems, accelerations_are_those_of_newton_and_euler)
+{
+    for (size_t i = 0; i < OWN_COUNT; i++) {
+        const own_system *s = &OWN[i];
+        nh_error error = {0};
+        nh_context *context = nh_context_create();
+        nh_problem *problem = opened(s, context);
+        nh_rates *rates = nh_rates_create(problem, &error);
+        cr_assert_not_null(rates, "%s: %s", s->name, error.what);
+        const motion m = moved(s, s->generic);
+        for (size_t j = 0; j <= SAMPLES; j += 4) {
+            double q[OWN_COORDINATES] = {0}, v[OWN_COORDINATES] = {0}, want[OWN_COORDINATES], a[OWN_COORDINATES];
+            by_hand(s, m.t[j], m.z[j], q, v, want);
+            nh_rates_at(rates, 1, &m.t[j], q, v, a);
+            for (size_t k = 0; k < nh_problem_coordinates(problem); k++)
+                cr_expect_float_eq(a[k], want[k], 1e-5 * (1 + fabs(want[k])), "%s: %s'' = %g, by hand %g", s->name,
+                                   nh_problem_coordinate(problem, k), a[k], want[k]);
+        }
+        nh_rates_free(rates);
+        nh_problem_free(problem);
+        nh_context_free(context);
+    }
+}
+
+/* x cos(h) + y sin(h) - z/c is constant where z' = c u > 0 and u is the speed; the equations are those of z' < 0. */
+Test(own_systems, what_is_conserved_on_the_other_branch_alone_is_said_to_be_so)
+{
+    const own_system *s = NULL;
+    for (size_t i = 0; i < OWN_COUNT; i++)
+        if (!strcmp(OWN[i].name, "appell_spring")) s = &OWN[i];
+    nh_error error = {0};
+    nh_context *context = nh_context_create();
+    nh_problem *problem = opened(s, context);
+    nh_verification *v = nh_verify_current(problem, "(x*x' + y*y')/sqrt(x'^2 + y'^2) - z/c", &error);
+    cr_assert_not_null(v, "%s", error.what);
+    cr_expect_not(nh_verification_holds(v));
+    char *text = nh_verification_document(v, NH_FORMAT_TEXT, &error);
+    cr_expect_not_null(strstr(text, "on the branch z' < 0"), "%s", text);
+    cr_expect_not_null(strstr(text, "it is conserved: proved."), "%s", text);
+    nh_string_free(text);
+    nh_verification_free(v);
+    nh_problem_free(problem);
+    nh_context_free(context);
+}
+
 /* ---- reductions ---- */
 
 static double number(const cJSON *of, const char *key)
@@ -466,7 +527,8 @@ Test(own_systems, reduced_equations_agree_with_the_accelerations)
         char *text = nh_reduction_document(r, NH_FORMAT_JSON, &error);
         cJSON *document = cJSON_Parse(text), *stage = NULL;
         const cJSON *stages = cJSON_GetObjectItem(document, "stages");
-        cr_expect_eq(cJSON_GetArraySize(stages) > 0, s->reducible, "%s: %d stages", s->name, cJSON_GetArraySize(stages));
+        cr_expect_eq(cJSON_GetArraySize(stages) > 0, s->reducible, "%s: %d stages", s->name,
+                     cJSON_GetArraySize(stages));
         cJSON_ArrayForEach (stage, stages) {
             cr_expect_lt(number(stage, "printed_difference"), SAME, "%s", s->name);
             cr_expect_lt(number(stage, "agreement_with_full"), SAME, "%s", s->name);
