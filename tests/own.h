@@ -1,5 +1,5 @@
-/* own: ten systems that stand in no paper and not in the catalogue, as a user writes them, each beside its equations of
- * motion by Newton and Euler with reaction forces, and its integrals by hand.
+/* own: ten systems of our own, outside of the catalogue, as a user writes them, each beside its equations of motion by
+ * Newton and Euler with reaction forces, and its integrals by hand.
  *
  * A state z has as many numbers as the constraint submanifold, so that gradients of integrals are those on it; `place`
  * gives positions and velocities in the order of `coordinates`.  e = (cos h, sin h) is a heading, n = (-sin h, cos h),

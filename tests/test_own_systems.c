@@ -1,5 +1,5 @@
-/* own_systems: ten systems that stand in no paper and not in the catalogue, against motions and integrals by hand, through
- * the public interface alone. */
+/* own_systems: ten systems of our own, outside of the catalogue, against motions and integrals by hand, through the public
+ * interface alone.  An integral that the program misses today is marked so: then it must not be there. */
 #include <criterion/criterion.h>
 
 #include <cjson/cJSON.h>
