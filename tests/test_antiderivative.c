@@ -116,6 +116,14 @@ Test(antiderivative, logarithms_and_inverse_functions_by_parts)
     check("(x + 1)*atanh(x/p)", -1, 1);
 }
 
+/* The logarithms stand in the denominator without the root: a^2 (c - b x^2) - k^2 x^2. */
+Test(antiderivative, sums_with_roots_in_denominators)
+{
+    check("1/(sqrt(c - b*x^2)*(a*sqrt(c - b*x^2) + k*x))", 0.1, 0.4);
+    check("1/(a*sqrt(c - b*x^2) + k*x)", 0.1, 0.4);
+    check("sqrt(c - b*x^2)/(a*sqrt(c - b*x^2) + k*x)", 0.1, 0.4);
+}
+
 Test(antiderivative, turning)
 {
     check("x*sin(a*x)^2", 0, 9);

@@ -36,10 +36,12 @@ static void ask_other_branch(nh_verification *v, nh_ex e, const nh_options *opti
 {
     nh_error ignored;
     nh_error_clear(&ignored);
-    nh_model *other = v->conserved ? nh_branch_other(v->model, options) : NULL;
+    nh_model *other = nh_branch_other(v->model, options);
     nh_ex phi;
-    if (other && nh_analysis_file_to_chart(other, e, &phi, &ignored))
-        v->on_both = nh_branch_conserves(other, phi, &v->proof, options);
+    if (other && nh_analysis_file_to_chart(other, e, &phi, &ignored)) {
+        if (v->conserved) v->on_both = nh_branch_conserves(other, phi, &v->proof, options);
+        else if (!v->region) v->on_other = nh_prove_current(other, phi, true, options).proved;
+    }
     nh_model_free(other);
 }
 

@@ -36,7 +36,8 @@ struct nh_verification {
     bool trivial; /* the current is constant */
     /* branch of a quadratic constraint: "z' < 0", where this was computed, and "z' > 0"; or NULL */
     const char *branch, *other_branch;
-    bool on_both; /* the current is conserved on the other branch, too */
+    bool on_both;  /* the current is conserved on the other branch, too */
+    bool on_other; /* it is conserved on the other branch alone: proved there */
     bool has_symmetry;
     nh_symmetry symmetry;
     struct nh_theory *theory; /* the geometry, if it was requested; else NULL */

@@ -378,7 +378,11 @@ static void motion(const screen *x)
     nh_text_addf(&words, " by %s%.2g, relative to %s terms.", measured > 1 ? "at most " : "", worst,
                  measured > 1 ? "their" : "its");
     double other = v->multistep ? v->multistep_difference : v->multiplier_form ? v->state_difference : NAN;
-    if (isfinite(other)) nh_text_addf(&words, " Another method gives the same motion to %.2g.", other);
+    if (isfinite(other))
+        nh_text_addf(&words,
+                     other > NH_MOTIONS_APART ? " Another method gives another motion: states differ by %.2g."
+                                              : " Another method gives the same motion to %.2g.",
+                     other);
     say(x, 0, &words);
 }
 

@@ -170,7 +170,8 @@ static void counterexample(nh_pen *p, const nh_verification *v)
     for (size_t j = 0; j < v->model->width; j++)
         nh_pen_say(p, j ? ", <%s> = %.10g" : "<%s> = %.10g", nh_name_of(v->model->dag, v->model->chart->symbol[j]),
                    v->counterexample[j]);
-    nh_pen_say(p, ".");
+    nh_pen_say(p, v->branch ? ", on the branch <%s>." : ".", v->branch);
+    if (v->on_other) nh_pen_say(p, " On the branch <%s> it is conserved: proved.", v->other_branch);
     if (of_field(v) && v->equation_number > 6 && !v->theory)
         nh_pen_say(p, " The option --equations defines the letters.");
     nh_pen_close(p, NH_PEN_WORDS);
@@ -296,7 +297,9 @@ static void put_no(const nh_verification *v, bool colour, nh_text *out)
     nh_text words;
     nh_text_init(&words);
     if (v->region) nh_text_addf(&words, "No. This is conserved only in a region: %s.", v->region);
-    else nh_text_add(&words, "No. This changes along motions");
+    else
+        nh_text_addf(&words, "No. This changes along motions%s%s", v->branch ? " on the branch " : "",
+                     v->branch ? v->branch : "");
     if (v->has_counterexample && !v->region) {
         nh_text_add(&words, ", for example at ");
         for (size_t j = 0; j < model->width; j++)
@@ -306,11 +309,12 @@ static void put_no(const nh_verification *v, bool colour, nh_text *out)
     } else if (!v->region) {
         nh_text_add(&words, ".");
     }
+    if (v->on_other) nh_text_addf(&words, " On the branch %s it is conserved: proved.", v->other_branch);
     nh_screen_begin(out, colour, v->system, NULL, &words);
     nh_ex general = model->chart->implicit || v->region ? 0 : rate(v);
     if (general && nh_complexity(model->dag, general) <= short_rate) {
         nh_text_add(out, "Its rate in general:\n");
-        nh_screen_equation("rate", model->dag, general, out);
+        nh_screen_equation("rate", model->dag, as_shown(v, general), out);
     }
 }
 

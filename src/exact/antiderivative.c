@@ -14,9 +14,7 @@
  *      |
  *      combine             f = sum_j c_j dg_j/dx with constants c_j: linear, exact (relation_express.h)
  *      |
- *      by_parts            where this fails: int a L^n dx = A L^n - int A (L^n)' dx, L a logarithm or inverse function
- *
- * Elliptic integrals come first where they are asked for: they are few, and the elementary candidates many. */
+ *      by_parts            where this fails: int a L^n dx = A L^n - int A (L^n)' dx, L a logarithm or inverse */
 #include "exact/antiderivative_internal.h"
 
 #include "base/memory.h"
@@ -242,17 +240,41 @@ static void add_letter(builder *b, size_t g)
     b->letter[b->letters++] = l;
 }
 
+static bool is_root(const builder *b, const nh_kernel *k)
+{
+    return k->kind == NH_KERNEL_ROOT && nh_depends(b->d, k->atom, b->in->x);
+}
+
+static bool is_root_below(const builder *b)
+{
+    for (size_t j = 0; j < b->pieces.factors; j++)
+        for (size_t g = 0; g < b->form.kernels.count && b->pieces.factor[j].power < 0; g++)
+            if (is_root(b, &b->form.kernels.item[g]) && degree_in(&b->pieces.factor[j], b->form.kernels.count, g) > 0)
+                return true;
+    return false;
+}
+
+/* f in factors; 1/(a + b sqrt(R)) as (a - b sqrt(R))/(a^2 - b^2 R), whose denominator shows the logarithms. */
+static bool factors(builder *b, nh_arena *arena, nh_forms *forms, nh_ex f)
+{
+    nh_form *form = &b->form;
+    bool good = nh_form_make(forms, f, true, form) == NH_FIELD_FINE;
+    good = good && nh_pieces_make(form->field, arena, form->value, true, &b->pieces);
+    if (!good || !is_root_below(b)) return good;
+    form->value = nh_quotient_rationalise(form->field, form->value);
+    return nh_quotient_field_state_of(form->field) == NH_FIELD_FINE &&
+           nh_pieces_make(form->field, arena, form->value, true, &b->pieces);
+}
+
 /* The kernels of f that depend on x, x itself among them, and the factors of its denominator. */
 static bool read(builder *b, nh_arena *arena, nh_forms *forms, nh_ex f)
 {
-    if (nh_form_make(forms, f, true, &b->form) != NH_FIELD_FINE ||
-        !nh_pieces_make(b->form.field, arena, b->form.value, true, &b->pieces))
-        return false;
+    if (!factors(b, arena, forms, f)) return false;
     bool has_x = false, rooted = false;
     for (size_t g = 0; g < b->form.kernels.count; g++) {
-        has_x |= b->form.kernels.item[g].kind == NH_KERNEL_PLAIN && b->form.kernels.item[g].atom == b->in->x;
-        rooted |=
-            b->form.kernels.item[g].kind == NH_KERNEL_ROOT && nh_depends(b->d, b->form.kernels.item[g].atom, b->in->x);
+        const nh_kernel *k = &b->form.kernels.item[g];
+        has_x |= k->kind == NH_KERNEL_PLAIN && k->atom == b->in->x;
+        rooted |= is_root(b, k);
         add_letter(b, g);
     }
     if (!has_x && b->letters < NH_ANTIDERIVATIVE_KERNELS)
@@ -379,8 +401,7 @@ static bool elementary(const nh_integration *in, nh_ex f, nh_ex *F)
     nh_forms forms;
     nh_forms_init(&forms, in->dag, false, in->max_terms ? in->max_terms : default_terms);
     forms.coarse = true;
-    bool found = read(b, arena, &forms, f);
-    bool done = false;
+    bool found = read(b, arena, &forms, f), done = false;
     if (found && in->elliptic) {
         nh_antiderivative_put_elliptic(b);
         done = b->count > 0 && combine(b, f, F); /* few, before the many that are elementary */
@@ -389,12 +410,11 @@ static bool elementary(const nh_integration *in, nh_ex f, nh_ex *F)
     done = done || (found && !b->full && combine(b, f, F));
     for (int halves = 0; found && !done && in->elliptic && halves <= 1; halves++)
         done = nh_antiderivative_elliptic_quartic(b, f, halves, F);
-    found = done;
     nh_form_clear(&b->form);
     nh_forms_clear(&forms);
     nh_arena_free(arena);
     nh_free(b);
-    return found;
+    return done;
 }
 
 /* The last of the logarithms and inverse functions of x in f, and f's degree in it with the leading coefficient; false:

@@ -37,15 +37,30 @@ static double end_of(line *l)
     return here;
 }
 
-/* Does the rate of sqrt(R) have a nonzero limit there?  It does not change nearer and nearer to the end. */
-static bool passes(line *l, nh_ball *ball, nh_ex rate, double *const point[NH_CROSSING_DEPTHS])
+static bool values(const nh_model *model, nh_ball *ball, nh_ex e, double *const point[NH_CROSSING_DEPTHS],
+                   double value[NH_CROSSING_DEPTHS])
+{
+    double radius;
+    for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++)
+        if (!nh_exact_at(model, ball, point[k]) || !nh_ball_value(ball, e, &value[k], &radius)) return false;
+    return true;
+}
+
+/* Is `other` the same number, and not 0, but for a fifth? */
+static bool agree(double number, double other)
 {
     static const double same = 0.2;
-    double value[NH_CROSSING_DEPTHS], radius;
-    for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++)
-        if (!nh_exact_at(l->o, ball, point[k]) || !nh_ball_value(ball, rate, &value[k], &radius)) return false;
-    double near = value[NH_CROSSING_DEPTHS - 1], far = value[NH_CROSSING_DEPTHS - 2];
-    return near != 0 && fabs(near - far) < same * fabs(near);
+    return number != 0 && fabs(number - other) < same * fabs(number);
+}
+
+/* Does the rate of sqrt(R) have a nonzero limit there?  It does not change nearer and nearer to the end. */
+static bool passes(const nh_model *model, nh_ball *ball, nh_ex rate, double *const point[NH_CROSSING_DEPTHS],
+                   double *limit)
+{
+    double value[NH_CROSSING_DEPTHS];
+    if (!values(model, ball, rate, point, value)) return false;
+    *limit = value[NH_CROSSING_DEPTHS - 1];
+    return agree(*limit, value[NH_CROSSING_DEPTHS - 2]);
 }
 
 static bool take(line *l, nh_ball *ball, nh_ex rate, double s, nh_crossing *c, nh_arena *arena)
@@ -56,7 +71,8 @@ static bool take(line *l, nh_ball *ball, nh_ex rate, double s, nh_crossing *c, n
         c->point[0][k] = c->point[1][k] = nh_arena_alloc(arena, width * sizeof(double));
         for (size_t j = 0; j < width; j++) c->point[0][k][j] = l->origin[j] + s * (1 - distance[k]) * l->direction[j];
     }
-    return passes(l, ball, rate, c->point[0]);
+    double limit;
+    return passes(l->o, ball, rate, c->point[0], &limit);
 }
 
 static void draw(line *l, uint64_t *state)
@@ -77,6 +93,7 @@ static void describe(const nh_model *model, nh_branch_end *end)
     nh_ex linear = nh_mul(d, nh_int(d, c->branch), r->value), slope = nh_diff(d, linear, r->symbol),
           zero = nh_int(d, 0), b = nh_substitute(d, linear, 1, &r->symbol, &zero);
     end->root = r->symbol;
+    end->rate = nh_model_gamma(model, nh_sqrt(d, c->radicand));
     end->wall = nh_is_zero(d, b) ? r->symbol : linear;
     end->there = nh_neg(d, nh_add(d, c->rho[r->coordinate], nh_div(d, nh_mul(d, nh_int(d, 2), b), slope)));
 }
@@ -87,7 +104,6 @@ nh_branch_end nh_branch_end_of(const nh_model *model, const nh_options *options,
     const nh_chart *c = model->chart;
     if (!c->branch || c->implicit || c->roots == 0) return out;
     uint64_t state = (uint64_t)options->seed + 7919;
-    nh_ex rate = nh_model_gamma(model, nh_sqrt(model->dag, c->radicand));
     nh_ball *ball = nh_ball_create(model->dag, bits);
     nh_exact_parameters(model, ball);
     line l = {
@@ -102,7 +118,7 @@ nh_branch_end nh_branch_end_of(const nh_model *model, const nh_options *options,
         *next = (nh_crossing){.wall = out.wall};
         draw(&l, &state);
         double s = radicand_at(&l, 0) > 0 ? end_of(&l) : 0;
-        out.crossings.count += s > 0 && take(&l, ball, rate, s, next, arena);
+        out.crossings.count += s > 0 && take(&l, ball, out.rate, s, next, arena);
     }
     nh_tape_work_free(l.work);
     nh_tape_free(l.tape);
@@ -111,7 +127,22 @@ nh_branch_end nh_branch_end_of(const nh_model *model, const nh_options *options,
     return out;
 }
 
+bool nh_branch_end_is_at(const nh_model *model, const nh_branch_end *end, nh_ball *ball, const nh_crossing *c)
+{
+    static const double falls = 1e-3; /* R falls as the square of the distance, which is 2^-12 of the one before */
+    double R[NH_CROSSING_DEPTHS], limit[2];
+    if (!end->root || !c->touches) return false;
+    for (int side = 0; side < 2; side++) {
+        if (!values(model, ball, model->chart->radicand, c->point[side], R)) return false;
+        for (size_t k = 1; k < NH_CROSSING_DEPTHS; k++)
+            if (!(fabs(R[k]) < falls * fabs(R[k - 1]))) return false;
+        if (!passes(model, ball, end->rate, c->point[side], &limit[side])) return false;
+    }
+    return agree(limit[0], limit[1]);
+}
+
 nh_ex nh_branch_end_beyond(const nh_model *model, const nh_branch_end *end, nh_ex phi)
 {
+    if (!end->root) return phi;
     return nh_substitute(model->dag, nh_chart_shown(model->chart, phi), 1, &end->root, &end->there);
 }

@@ -45,14 +45,19 @@ nh_crossings nh_crossings_find(const nh_model *model, const nh_walls *walls, uin
 
 typedef struct {
     nh_ex wall;             /* zero where the branches meet, in the velocity u */
-    nh_ex root, there;      /* the symbol of u, and its value on the other branch */
+    nh_ex root, there;      /* the symbol of u, 0 where the chart has one branch; and its value on the other branch */
+    nh_ex rate;             /* of sqrt(R) along Gamma */
     nh_crossings crossings; /* the points of both sides are the same ones: (t, q, w) */
 } nh_branch_end;
 
 /* No crossings where the chart has one branch, and where no motion was seen to change it.  Belongs to the arena. */
 nh_branch_end nh_branch_end_of(const nh_model *model, const nh_options *options, nh_arena *arena);
 
-/* phi as it is printed, on the other branch: the symbol of u stands for the root. */
+/* Does R touch zero at this crossing of another wall, as x'^2 + y'^2 does where a point comes to rest?  Motions go over
+ * to the other branch there as well if the rate of sqrt(R) has the same limit on both sides. */
+bool nh_branch_end_is_at(const nh_model *model, const nh_branch_end *end, nh_ball *ball, const nh_crossing *c);
+
+/* phi as it is printed, on the other branch: the symbol of u stands for the root.  phi itself where there is none. */
 nh_ex nh_branch_end_beyond(const nh_model *model, const nh_branch_end *end, nh_ex phi);
 
 #endif

@@ -247,22 +247,24 @@ static nh_crossings own_crossings(const nh_model *model, const nh_terrain *terra
 typedef struct {
     const nh_model *o;
     nh_ball *ball;
-    nh_ex phi, beyond, *term; /* beyond: phi on the side where the wall is positive; 0: the same expression */
+    const nh_branch_end *end;
+    nh_ex phi, beyond, *term; /* beyond: phi on the other branch of the chart's velocities */
     size_t terms, failing;
     double digits;
     nh_ex fails[NH_MOST_WALLS]; /* the walls at which it failed on both sides */
 } judge;
 
 /* Does Phi jump: is the difference of its values on the two sides the same nearer to the wall, and no rounding, while
- * Phi stays finite?  It grows where the digits of the points are too few, as those of y'/x' at x' = y' = 0. */
-static bool jumps(judge *j, const nh_crossing *c)
+ * Phi stays finite?  It grows where the digits of the points are too few, as those of y'/x' at x' = y' = 0.  `over`:
+ * on the second side lies the other branch. */
+static bool jumps(judge *j, const nh_crossing *c, bool over)
 {
     static const double rounding = 1e-8, growth = 1.3;
     double value[2][NH_CROSSING_DEPTHS], radius, size = 0;
     for (int side = 0; side < 2; side++)
         for (size_t k = 0; k < NH_CROSSING_DEPTHS; k++) {
             if (!nh_exact_at(j->o, j->ball, c->point[side][k]) ||
-                !nh_ball_value(j->ball, side && j->beyond ? j->beyond : j->phi, &value[side][k], &radius))
+                !nh_ball_value(j->ball, side && over ? j->beyond : j->phi, &value[side][k], &radius))
                 return false;
             size = fmax(size, fabs(value[side][k]));
         }
@@ -306,7 +308,8 @@ static void look(judge *j, const nh_crossing *c, seen *s)
     s->below |= below == 0 && above == 1;
     s->above |= above == 0 && below == 1;
     /* where Phi is zero to the last digit, its rate says nothing */
-    s->jump |= below != 0 && above != 0 && (below == 1 || above == 1) && jumps(j, c);
+    s->jump |= below != 0 && above != 0 && (below == 1 || above == 1) &&
+               jumps(j, c, nh_branch_end_is_at(j->o, j->end, j->ball, c));
 }
 
 /* A wall of an impulse stays one. */
@@ -335,13 +338,11 @@ static void look_at_all(judge *j, const nh_crossings *c, nh_region *out)
 }
 
 /* At the end of the chart's branch: the other branch has phi with its own velocity. */
-static void look_at_the_end(judge *j, const nh_branch_end *end, nh_region *out)
+static void look_at_the_end(judge *j, nh_region *out)
 {
     seen s = {0};
-    if (end->crossings.count) j->beyond = nh_branch_end_beyond(j->o, end, j->phi);
-    for (size_t i = 0; i < end->crossings.count; i++) s.jump |= jumps(j, &end->crossings.item[i]);
-    note(out, end->wall, &s, false);
-    j->beyond = 0;
+    for (size_t i = 0; i < j->end->crossings.count; i++) s.jump |= jumps(j, &j->end->crossings.item[i], true);
+    note(out, j->end->wall, &s, false);
 }
 
 static nh_ex inside_of_absolute(void *dag, nh_ex call)
@@ -373,7 +374,9 @@ nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex p
     if (own.count + terrain->crossings.count + terrain->end.crossings.count == 0) return out;
     judge j = {.o = model,
                .ball = nh_ball_create(model->dag, (long)options->bits),
+               .end = &terrain->end,
                .phi = phi,
+               .beyond = nh_branch_end_beyond(model, &terrain->end, phi),
                .terms = 1 + model->m + model->n,
                .digits = digits};
     j.term = nh_alloc_array(j.terms, sizeof *j.term);
@@ -385,7 +388,7 @@ nh_region nh_region_of(const nh_model *model, const nh_terrain *terrain, nh_ex p
     /* Far from the sampling box it fails on both sides of a wall, and no other wall ends it: another sheet of this wall
      * does. */
     if (j.failing && !out.count) put(&out, j.fails[0], NH_REGION_PARTS);
-    look_at_the_end(&j, &terrain->end, &out);
+    look_at_the_end(&j, &out);
     nh_free(j.term);
     nh_ball_free(j.ball);
     if (sided && out.count) put_pairs(memset(&out, 0, sizeof out), model);

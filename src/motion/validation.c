@@ -22,6 +22,7 @@
 #include "graph/node.h"
 #include "motion/automatic.h"
 #include "motion/singular_start.h"
+#include "motion/singular_terms.h"
 #include "motion/sizes.h"
 #include "motion/table_end.h"
 #include "motion/turns.h"
@@ -190,14 +191,24 @@ static nh_flow_options options_of(const run *r, size_t which)
                              .cancelled = nh_interrupted_callback};
 }
 
-static nh_motion *motion_by(run *r, const nh_method *method, const nh_flow_options *options, const nh_method **used,
+static nh_along_values *along(size_t n, const nh_ex *e, void *context)
+{
+    const run *r = context;
+    return nh_along_values_of(r->dynamics, r->everywhere, n, e);
+}
+
+/* It ends where the equations of motion determine no acceleration, as in `simulate`. */
+static nh_motion *motion_by(run *r, const nh_method *method, nh_flow_options options, const nh_method **used,
                             nh_error *error)
 {
     nh_flow_problem problem = nh_dynamics_problem(r->dynamics);
+    nh_singular_of_model *singular = nh_singular_of_model_create(r->model, !r->everywhere, NULL, along, r);
+    options.singular = nh_singular_of_model_watch(singular);
     nh_motion *motion =
         r->everywhere
-            ? nh_motion_everywhere(r->dynamics, method, r->y0, r->outputs, r->times, options, NULL, used, error)
-            : nh_automatic_or(method, &problem, r->z0, r->outputs, r->times, options, used, error);
+            ? nh_motion_everywhere(r->dynamics, method, r->y0, r->outputs, r->times, &options, NULL, used, error)
+            : nh_automatic_or(method, &problem, r->z0, r->outputs, r->times, &options, used, error);
+    nh_singular_of_model_free(singular);
     nh_table_end_explain(r->model, motion);
     return motion;
 }
@@ -214,7 +225,7 @@ static void multistep(run *r, const nh_motion *motion, const sizes_of_all *sizes
     if (!strcmp(v->method, adams->name)) return;
     nh_flow_options options = options_of(r, NH_DRIFT_RUNS - 1);
     options.max_steps = most_steps(r);
-    nh_motion *other = motion_by(r, adams, &options, NULL, &ignored);
+    nh_motion *other = motion_by(r, adams, options, NULL, &ignored);
     size_t count = other ? (other->count < motion->count ? other->count : motion->count) : 0;
     double *own = nh_alloc_array(2 * motion->count * states + 1, sizeof *own), *its = own + motion->count * states;
     nh_motion head = *motion;
@@ -360,7 +371,7 @@ static bool all_runs(run *r, const nh_validation_request *q, nh_error *error)
         if (i == 0 &&
             nh_meets_pivot(r->dynamics, r->method, r->z0, (double[]){r->times[0], r->times[r->outputs - 1]}, &options))
             r->everywhere = true;
-        nh_motion *motion = motion_by(r, r->method, &options, &used, error);
+        nh_motion *motion = motion_by(r, r->method, options, &used, error);
         if (!motion) return false;
         bool steep;
         nh_free(nh_steep_points(r->dynamics, motion, &steep));

@@ -91,16 +91,24 @@ static void lift(bench *b, const double *u, const double *slope)
     }
 }
 
-/* The largest residual of omega v + b = 0, of linear and affine constraints. */
+static double unit_of(const bench *b, size_t i) { return b->e[i] != 0 ? sqrt(fabs(b->e[i])) : 1; }
+
+/* The largest residual of omega v + b = 0, of linear and affine constraints, relative to |omega| |v| + |b| in the units
+ * of the metric: a sum of terms that are rounding is rounding. */
 static double off_constraints(const bench *b)
 {
     const nh_slice *s = b->s;
     size_t m = s->m;
     const double *omega = b->e + m + m * s->d * (1 + m), *drift = omega + s->f * m;
-    double worst = 0;
+    double worst = 0, speed = 0;
+    for (size_t j = 0; j < m; j++) speed = hypot(speed, unit_of(b, j) * b->v[j]);
     for (size_t i = 0; i < s->f && s->kinetic->affine; i++) {
-        double sum = drift[i], size = fabs(drift[i]);
-        for (size_t j = 0; j < m; j++) sum += omega[i * m + j] * b->v[j], size += fabs(omega[i * m + j] * b->v[j]);
+        double sum = drift[i], length = 0;
+        for (size_t j = 0; j < m; j++) {
+            sum += omega[i * m + j] * b->v[j];
+            length = hypot(length, omega[i * m + j] / unit_of(b, j));
+        }
+        double size = length * speed + fabs(drift[i]);
         worst = fmax(worst, size > 0 ? fabs(sum) / size : 0);
     }
     return worst;
@@ -114,7 +122,7 @@ static double at_state(bench *b, const double *u, const double *slope, nh_accele
     lift(b, u, slope);
     if (!nh_all_finite(m, b->a) || !accelerations(context, b->q, b->v, b->want)) return -1;
     for (size_t i = 0; i < m; i++) {
-        double unit = b->e[i] != 0 ? sqrt(fabs(b->e[i])) : 1;
+        double unit = unit_of(b, i);
         off = hypot(off, unit * (b->a[i] - b->want[i]));
         size = hypot(size, unit * (b->terms[i] + fabs(b->want[i]) + fabs(b->v[i])));
     }

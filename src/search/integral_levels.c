@@ -66,9 +66,11 @@ static void gather(levels *x)
         bool usable = !f->series && f->proof.all_parameters && f->has_in_velocities &&
                       f->independence == NH_INDEPENDENT && !nh_depends(x->d, f->phi, x->o->system->t);
         if (!usable || nh_complexity(x->d, f->in_velocities) > longest || !is_linear(x->o, f->phi)) continue;
-        double value = value_of(x, nh_model_without_constants(x->o, f->phi));
+        /* J w as w: J h' itself would be a constant, as its symbol is none of a chart of quasi-velocities */
+        nh_ex free = nh_model_without_constants(x->o, f->phi), over = nh_div(x->d, free, f->phi);
+        double value = value_of(x, free);
         if (!isnormal(value)) continue;
-        x->integral[x->count] = nh_model_without_constants(x->o, f->in_velocities);
+        x->integral[x->count] = nh_simplify_short(x->d, nh_mul(x->d, over, f->in_velocities), 0);
         x->value[x->count] = value;
         x->symbol[x->count++] = nh_symbol_fresh(x->d, "level");
     }
