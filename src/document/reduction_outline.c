@@ -192,6 +192,18 @@ static void joints(nh_pen *p, const nh_reduction *r)
 
 /* ---- stages ---- */
 
+/* Which of them theorem 4.1 gives. */
+static void first_joint(nh_pen *p, const nh_reduction *r, const nh_action *action)
+{
+    bool *first = nh_arena_alloc(r->arena, (action->d + 1) * sizeof *first);
+    size_t count = 0, all = 0;
+    nh_group_first_joint(action, first);
+    for (size_t a = 0; a < action->d; a++) count += first[a];
+    for (size_t i = 0; i < r->joints->fields; i++) all += r->joints->field[i].rule == NH_CHAIN_FIRST;
+    if (count && count == all)
+        nh_pen_say(p, "; with the whole group of the first joint (Chhabra and Emami 2014, theorem 4.1)");
+}
+
 static void divided_out(nh_pen *p, const nh_reduction *r, const nh_reduction_stage *s)
 {
     const nh_reduced *o = s->shown;
@@ -201,6 +213,7 @@ static void divided_out(nh_pen *p, const nh_reduction *r, const nh_reduction_sta
         field(p, s->action->kinetic, s->action->generator[a].component);
     }
     nh_pen_say(p, "%s", s->local ? " (this group acts only locally: it is many-valued on an angle)" : "");
+    if (r->joints && s->kind != NH_STAGE_SECOND) first_joint(p, r, s->action);
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact_begin(p, "Shape");
     for (size_t i = 0; i < o->n; i++)
