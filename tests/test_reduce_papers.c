@@ -4,8 +4,14 @@
 
 #include <stdio.h>
 
+#include "base/linalg.h"
 #include "commands/reduce.h"
+#include "document/reduction.h"
+#include "evaluate/tape.h"
+#include "exact/normal.h"
+#include "graph/dag.h"
 #include "reduction/group.h"
+#include "reduction/hamilton.h"
 #include "scratch.h"
 
 static nh_reduction *reduce_path(const char *path, const char *group, bool equations)
@@ -124,4 +130,195 @@ Test(reduce_papers, a_ball_joint_is_divided_out_in_a_second_stage)
         }
         nh_reduction_free(r);
     }
+}
+
+/* ---- accelerations from the whole system, by numbers ---- */
+
+/* v such that omega v = 0: random, less its part along the constraints' rows in the metric of unit matrices. */
+static void allowed(const nh_kinetic *k, const double *q, uint64_t seed, double *v)
+{
+    size_t m = k->m, f = k->f;
+    double *om = nh_alloc_array(f * m + f * f + f + 1, sizeof *om), *gram = om + f * m, *c = gram + f * f;
+    nh_kinetic_values(k, f * m, k->omega, q, om);
+    for (size_t s = 0; s < m; s++) v[s] = sin(1.7 * (double)(seed * m + s) + 0.3);
+    for (size_t i = 0; i < f; i++)
+        for (size_t s = 0; s < m; s++) {
+            c[i] += om[i * m + s] * v[s];
+            for (size_t j = 0; j < f; j++) gram[i + j * f] += om[i * m + s] * om[j * m + s];
+        }
+    if (f) cr_assert(nh_solve(f, gram, 1, c, NULL));
+    for (size_t i = 0; i < f; i++)
+        for (size_t s = 0; s < m; s++) v[s] -= om[i * m + s] * c[i];
+    nh_free(om);
+}
+
+/* d/dq^s of `count` expressions by a difference of order four. */
+static void slope(const nh_kinetic *k, size_t count, const nh_ex *e, const double *q, size_t s, double *out)
+{
+    const double h = 1e-3, weight[4] = {1. / 12, -2. / 3, 2. / 3, -1. / 12}, step[4] = {-2, -1, 1, 2};
+    double *at = nh_alloc_array(k->m + count + 1, sizeof *at), *value = at + k->m;
+    memset(out, 0, count * sizeof *out);
+    for (size_t i = 0; i < 4; i++) {
+        memcpy(at, q, k->m * sizeof *at);
+        at[s] += step[i] * h;
+        nh_kinetic_values(k, count, e, at, value);
+        for (size_t j = 0; j < count; j++) out[j] += weight[i] * value[j] / h;
+    }
+    nh_free(at);
+}
+
+/* K a + K' v - 1/2 v dK v + dV = omega^T lambda, omega a + omega' v = 0: Lagrange and d'Alembert with multipliers. */
+static void acceleration(const nh_kinetic *k, const double *q, const double *v, double *a)
+{
+    size_t m = k->m, f = k->f, n = m + f, size = m * m + f * m + 1;
+    nh_ex *e = nh_alloc_array(size, sizeof *e);
+    double *z = nh_alloc_array(size * (m + 1) + n * n + n, sizeof *z), *matrix = z + size * (m + 1), *right = matrix + n * n;
+    memcpy(e, k->K, m * m * sizeof *e);
+    memcpy(e + m * m, k->omega, f * m * sizeof *e);
+    e[size - 1] = k->V;
+    nh_kinetic_values(k, size, e, q, z);
+    for (size_t s = 0; s < m; s++) slope(k, size, e, q, s, z + size * (s + 1));
+    for (size_t i = 0; i < m; i++) {
+        for (size_t j = 0; j < m; j++) {
+            matrix[i + j * n] = z[i * m + j];
+            for (size_t s = 0; s < m; s++) right[i] += (0.5 * z[size * (i + 1) + j * m + s] - z[size * (s + 1) + i * m + j]) * v[s] * v[j];
+        }
+        right[i] -= z[size * (i + 1) + size - 1];
+    }
+    for (size_t r = 0; r < f; r++)
+        for (size_t i = 0; i < m; i++) {
+            matrix[m + r + i * n] = z[m * m + r * m + i];
+            matrix[i + (m + r) * n] = -z[m * m + r * m + i];
+            for (size_t s = 0; s < m; s++) right[m + r] -= z[size * (s + 1) + m * m + r * m + i] * v[s] * v[i];
+        }
+    cr_assert(nh_solve(n, matrix, 1, right, NULL));
+    memcpy(a, right, m * sizeof *a);
+    nh_free(e);
+    nh_free(z);
+}
+
+/* ---- Hamilton's form ---- */
+
+/* `count` expressions of h at (x, p, m). */
+static void at_state(const nh_reduction *r, const nh_hamilton *h, size_t count, const nh_ex *e, const double *z, double *out)
+{
+    const nh_kinetic *k = r->kinetic;
+    size_t n = h->n, width = 2 * n + h->d;
+    nh_ex *in = nh_alloc_array(width, sizeof *in);
+    memcpy(in, h->x, n * sizeof *in);
+    memcpy(in + n, h->p, (n + h->d) * sizeof *in);
+    nh_tape *tape = nh_tape_create(h->dag, width, in, count, e, r->system->parameters, k->model->parameter, k->model->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, z, out);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    nh_free(in);
+}
+
+/* The momenta at which dH/dp is this velocity of the shape. */
+static void momenta_of(const nh_reduction *r, const nh_hamilton *h, const double *speed, double *z)
+{
+    size_t n = h->n;
+    double *matrix = nh_alloc_array(n * n + 2 * n + 1, sizeof *matrix), *zero = matrix + n * n, *right = zero + n;
+    memset(z + n, 0, n * sizeof *z);
+    at_state(r, h, n, h->speed, z, zero);
+    for (size_t j = 0; j < n; j++) {
+        z[n + j] = 1;
+        at_state(r, h, n, h->speed, z, matrix + j * n);
+        z[n + j] = 0;
+        for (size_t i = 0; i < n; i++) matrix[i + j * n] -= zero[i];
+        right[j] = speed[j] - zero[j];
+    }
+    cr_assert(nh_solve(n, matrix, 1, right, NULL));
+    memcpy(z + n, right, n * sizeof *z);
+    nh_free(matrix);
+}
+
+/* For allowed states of the whole system: x'' of the shape from the whole equations, and as the rate of dH/dp along (dH/dp, p'); H is the energy. */
+static void compare_hamilton(const char *name, const nh_reduction *r, const nh_hamilton *h, const size_t *shape, const nh_ex *generator)
+{
+    const nh_kinetic *k = r->kinetic;
+    size_t m = k->m, n = h->n, d = h->d, width = 2 * n + d;
+    double *q = nh_alloc_array(3 * m + 4 * width + m * m + m * d + 4 * n + 2, sizeof *q), *v = q + m, *a = v + m, *z = a + m, *rate = z + width, *at = rate + width, *K = at + width, *E = K + m * m,
+           *speed = E + m * d, *second = speed + n, *value = second + n;
+    const double step = 1e-3, weight[4] = {1. / 12, -2. / 3, 2. / 3, -1. / 12}, times[4] = {-2, -1, 1, 2};
+    for (size_t p = 0; p < 3; p++) {
+        memcpy(q, k->place + p * m, m * sizeof *q);
+        allowed(k, q, p, v);
+        acceleration(k, q, v, a);
+        nh_kinetic_values(k, m * m, k->K, q, K);
+        if (d) nh_kinetic_values(k, m * d, generator, q, E);
+        double energy = 0, V, H, largest = 0;
+        nh_kinetic_values(k, 1, &k->V, q, &V);
+        memset(z, 0, width * sizeof *z);
+        for (size_t i = 0; i < m * m; i++) {
+            energy += 0.5 * v[i / m] * K[i] * v[i % m];
+            for (size_t b = 0; b < d; b++) z[2 * n + b] += E[b * m + i / m] * K[i] * v[i % m]; /* m_b = e_b . p */
+        }
+        for (size_t i = 0; i < n; i++) z[i] = q[shape[i]], speed[i] = v[shape[i]];
+        momenta_of(r, h, speed, z);
+        at_state(r, h, 1, &h->H, z, &H);
+        cr_expect_float_eq(H, energy + V, 1e-10 * (1 + fabs(energy)), "%s: H = %g, the energy is %g", name, H, energy + V);
+        at_state(r, h, n, h->speed, z, rate);
+        at_state(r, h, n, h->rate, z, rate + n);
+        memset(second, 0, n * sizeof *second);
+        for (size_t i = 0; i < 4; i++) {
+            for (size_t j = 0; j < width; j++) at[j] = z[j] + times[i] * step * (j < 2 * n ? rate[j] : 0);
+            at_state(r, h, n, h->speed, at, value);
+            for (size_t j = 0; j < n; j++) second[j] += weight[i] * value[j] / step;
+        }
+        for (size_t i = 0; i < m; i++) largest = fmax(largest, fabs(a[i]));
+        for (size_t i = 0; i < n; i++)
+            cr_expect_float_eq(second[i], a[shape[i]], 1e-7 * (1 + largest), "%s, place %zu: %s'' = %.9g, in the whole system %.9g", name, p, k->name[shape[i]], second[i], a[shape[i]]);
+    }
+    nh_free(q);
+}
+
+/* Stages whose shape coordinates the groups leave alone: x'' is that of the whole system.  The ball's second stage has (ii) in the weak form only. */
+Test(reduce_papers, Hamiltons_form_has_the_accelerations_of_the_whole_system)
+{
+    static const struct {
+        const char *system;
+        bool second, bent; /* Upsilon does not vanish */
+    } cases[] = {{"crane", true, true}, {"euler_disk", false, true}, {"chaplygin_ball", true, true}, {"two_wheel_cart", false, true}, {"rolling_disk", false, true}, {"cart_rotor", true, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "systems/%s.yaml", cases[i].system);
+        nh_reduction *r = reduce_path(path, NULL, false);
+        nh_hamilton h;
+        const nh_chaplygin *c = r->stage[0].chaplygin;
+        cr_assert(c && nh_hamilton_of_first(&h, r->arena, c), "%s", path);
+        compare_hamilton(path, r, &h, c->slice->shape, NULL);
+        bool bent = false;
+        for (size_t k = 0; k < h.n * h.n; k++) bent |= !nh_is_zero(h.dag, h.form[k]);
+        cr_expect_eq(bent, cases[i].bent, "%s: Upsilon", path);
+        if (cases[i].second) {
+            const nh_second *t = r->stage[1].second;
+            size_t shape[8], n = t->n, m = r->kinetic->m;
+            cr_assert(r->stage[1].kind == NH_STAGE_SECOND && nh_hamilton_of_second(&h, r->arena, t), "%s", path);
+            nh_ex *generator = nh_alloc_array(m * t->d, sizeof *generator);
+            for (size_t s = 0; s < m * t->d; s++) generator[s] = nh_int(h.dag, 0);
+            for (size_t a = 0; a < t->d; a++)
+                for (size_t s = 0; s < c->n; s++) generator[a * m + c->slice->shape[s]] = t->action.generator[a].component[s];
+            for (size_t s = 0; s < n; s++) shape[s] = c->slice->shape[t->slice.shape[s]];
+            compare_hamilton(path, r, &h, shape, generator);
+            nh_free(generator);
+        }
+        nh_reduction_free(r);
+    }
+}
+
+/* The printed lines: of a skate with a spring on its axle, z' = y x' by hand: H = p_x^2/(2 (1 + y^2)) + p_y^2/2, Upsilon_xy = -y x' with J = z' and B_xy = -dz'/dy. */
+Test(reduce_papers, Hamiltons_form_is_printed)
+{
+    nh_reduction *r = reduce_text("name: p\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints:\n  - z' = y*x'\n", false);
+    nh_text text;
+    nh_text_init(&text);
+    nh_reduction_write(r, NULL, (nh_pen_style){.form = NH_PEN_TEXT, .verbose = true}, &text);
+    const char *s = nh_text_string(&text);
+    cr_expect(strstr(s, "\nHamilton's form\n  x'^i=dH/dp_i, p'_i=-dH/dx^i+Upsilon_i,j x'^j"), "%s", s);
+    cr_expect(strstr(s, "H = (p_y^2 + p_x^2/(y^2 + 1))/2"), "%s", s);
+    cr_expect(strstr(s, "Upsilon_x,y = y x'"), "%s", s);
+    nh_text_clear(&text);
+    nh_reduction_free(r);
 }

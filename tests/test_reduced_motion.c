@@ -136,7 +136,7 @@ Test(reduced_motion, momenta_are_those_of_the_printed_equations, PLAIN_ONLY)
     char *end = strstr(f.out, "\nStage 2");
     cr_assert_not_null(end, "%s", f.out);
     *end = 0;
-    cr_expect_eq(times(f.out, "\n  p_y = "), 1);
+    cr_expect_eq(times(f.out, "\n  p_x = "), 1);
     for (bool line = true; name && line; name = strtok(NULL, ",")) {
         char words[100];
         line = !strchr(name, '\n');

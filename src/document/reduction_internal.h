@@ -32,4 +32,8 @@ nh_sheet *nh_reduction_remarks_sheet(const nh_reduction *reduction, const nh_red
 /* NULL for stages without such objects, and where they were not requested. */
 nh_sheet *nh_reduction_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
 
+/* H and Upsilon with the momenta as variables; NULL where a stage has no such form. */
+nh_sheet *nh_reduction_hamilton_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
+void nh_reduction_hamilton_json(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_json *to);
+
 #endif

@@ -343,6 +343,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     }
     if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, r, s);
     if (s->kind == NH_STAGE_SECOND) put_second(to, r, s);
+    nh_reduction_hamilton_json(r, s, to);
     if (s->by_stages) put_chain(to, s);
     if (s->kind == NH_STAGE_POINCARE || s->kind == NH_STAGE_SLICE) put_locked_inertia(to, s->shown_slice);
     nh_sheet *sheet = nh_reduction_sheet(r, s);

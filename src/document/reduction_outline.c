@@ -239,6 +239,7 @@ static void stage(nh_pen *p, const nh_reduction *r, size_t number)
     nh_reduction_conditions(s, p);
     nh_pen_close(p, NH_PEN_FACTS);
     nh_pen_sheet(p, nh_reduction_equations_sheet(r, s));
+    nh_pen_sheet(p, nh_reduction_hamilton_sheet(r, s));
     nh_reduction_remarks(r, s, p);
     if (!p->ink->brief) nh_reduction_figures(r, s, p);
     nh_pen_sheet(p, nh_reduction_sheet(r, s));

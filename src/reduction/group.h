@@ -37,11 +37,11 @@ nh_group *nh_group_within_walls(const nh_group *group, const nh_options *options
 /* How many of the local symmetries move no wall. */
 size_t nh_group_jets_within_walls(const nh_jets *jets, const nh_kinetic *kinetic, const nh_options *options);
 
-/* The subalgebra (t: d x f columns, as many as constraints) that makes a Chaplygin system; false when there is none.  Of
- * several: without many-valued fields, then the one that most of the other symmetries normalise, then that with most of
- * the first joint's displacements, then the least abelian, then the one with the most generators along coordinates that
- * the system calls dependent, or along one coordinate, then one of the best conditioned over the sample points, the last
- * of these. */
+/* The subalgebra (t: d x f columns, as many as constraints) that makes a Chaplygin system; false when there is none.
+ * Of several: without many-valued fields, then the one that most of the other symmetries normalise, then that with
+ * most of the first joint's displacements, then the least abelian, then the one with the most generators along
+ * coordinates that the system calls dependent, or along one coordinate, then one of the best conditioned over the
+ * sample points, the last of these. */
 bool nh_group_chaplygin(const nh_group *group, const nh_options *options, double *t);
 /* first[a]: generator a is a displacement that the joints on the ground allow, of all bodies behind them. */
 void nh_group_first_joint(const nh_action *action, bool *first);
