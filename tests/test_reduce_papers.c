@@ -10,6 +10,7 @@
 #include "evaluate/tape.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
+#include "graph/parse.h"
 #include "reduction/group.h"
 #include "reduction/hamilton.h"
 #include "scratch.h"
@@ -321,4 +322,207 @@ Test(reduce_papers, Hamiltons_form_is_printed)
     cr_expect(strstr(s, "Upsilon_x,y = y x'"), "%s", s);
     nh_text_clear(&text);
     nh_reduction_free(r);
+}
+
+/* ---- metric, locked inertia, Helmholtz's conditions: the formulas of the JSON ---- */
+
+static bool any_name(void *dag, const char *name, nh_ex *out, nh_parse_fault *fault)
+{
+    (void)fault;
+    *out = nh_symbol(dag, name);
+    return true;
+}
+
+typedef struct {
+    nh_dag *dag;
+    size_t count;
+    nh_ex in[64];
+    double value[64];
+} names;
+
+static void give(names *n, double value, const char *format, const char *name)
+{
+    char text[80];
+    snprintf(text, sizeof text, format, name);
+    n->in[n->count] = nh_symbol(n->dag, text);
+    n->value[n->count++] = value;
+}
+
+/* The parameters of a reduction, its coordinates and velocities. */
+static names names_at(const nh_reduction *r, const double *q, const double *v)
+{
+    names n = {.dag = nh_dag_create()};
+    for (size_t i = 0; i < r->system->parameters; i++) give(&n, r->system->parameter[i].value, "%s", r->system->parameter[i].name);
+    for (size_t s = 0; s < r->kinetic->m; s++) give(&n, q[s], "%s", r->kinetic->name[s]), give(&n, v[s], "%s'", r->kinetic->name[s]);
+    return n;
+}
+
+static double value_of(const names *n, const cJSON *item)
+{
+    nh_ex e;
+    nh_parse_fault fault;
+    double out;
+    cr_assert(cJSON_IsString(item) && nh_parse(n->dag, item->valuestring, any_name, n->dag, &e, &fault), "%s", cJSON_IsString(item) ? item->valuestring : "no text");
+    nh_tape *tape = nh_tape_create(n->dag, n->count, n->in, 1, &e, 0, NULL, NULL);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, n->value, &out);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return out;
+}
+
+static cJSON *json_of(const nh_reduction *r)
+{
+    char *text = nh_reduction_json(r, NULL);
+    cJSON *out = cJSON_Parse(text);
+    nh_free(text);
+    cr_assert_not_null(out);
+    return out;
+}
+
+/* L at (q, v): the file's Lagrangian, or that of its bodies. */
+static double lagrangian(const nh_reduction *r, const double *q, const double *v)
+{
+    const nh_kinetic *k = r->kinetic;
+    size_t m = k->m;
+    nh_ex in[32];
+    double at[32], out;
+    memcpy(in, k->q, m * sizeof *in), memcpy(in + m, k->v, m * sizeof *in);
+    memcpy(at, q, m * sizeof *at), memcpy(at + m, v, m * sizeof *at);
+    nh_tape *tape = nh_tape_create(k->dag, 2 * m, in, 1, &r->system->lagrangian, r->system->parameters, k->model->parameter, k->model->parameter_value);
+    nh_tape_work *work = nh_tape_work_create(tape);
+    nh_tape_eval(tape, work, at, &out);
+    nh_tape_work_free(work);
+    nh_tape_free(tape);
+    return out;
+}
+
+/* K(X, Y) = (L(X + Y) - L(X - Y))/2 for L = 1/2 v K v - V. */
+static double polarised(const nh_reduction *r, const double *q, const double *X, const double *Y)
+{
+    double sum[16], less[16];
+    for (size_t s = 0; s < r->kinetic->m; s++) sum[s] = X[s] + Y[s], less[s] = X[s] - Y[s];
+    return (lagrangian(r, q, sum) - lagrangian(r, q, less)) / 2;
+}
+
+/* The metric of the crane, 8 x 8, and of others against L of their velocities; the locked inertia of the whole group against L along its fields, at a
+ * place of the slice. */
+Test(reduce_papers, metric_and_locked_inertia_are_the_kinetic_energy)
+{
+    static const char *const systems[] = {"crane", "crane_lagrangian", "euler_disk", "two_wheel_cart"};
+    for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "systems/%s.yaml", systems[i]);
+        nh_reduction *r = reduce_path(path, NULL, false);
+        cJSON *json = json_of(r);
+        const cJSON *metric = oracle_get(json, "metric");
+        size_t m = r->kinetic->m;
+        double q[16], zero[16] = {0}, X[16], Y[16];
+        const nh_reduction_stage *s = &r->stage[r->stages - 1];
+        memcpy(q, r->kinetic->place, m * sizeof *q);
+        cr_assert_eq((size_t)cJSON_GetArraySize(metric), m);
+        names n = names_at(r, q, zero);
+        for (size_t a = 0; a < m * m; a++) {
+            memset(X, 0, sizeof X), memset(Y, 0, sizeof Y);
+            X[a / m] = Y[a % m] = 1;
+            double want = polarised(r, q, X, Y), got = value_of(&n, cJSON_GetArrayItem(cJSON_GetArrayItem(metric, (int)(a / m)), (int)(a % m)));
+            cr_expect_float_eq(got, want, 1e-12 * (1 + fabs(want)), "%s: K_%zu,%zu is %.15g, not %.15g", path, a / m, a % m, got, want);
+        }
+        const nh_slice *slice = s->shown_slice;
+        double y[16], E[128];
+        nh_kinetic_values(r->kinetic, slice->d, slice->y, q, y);
+        for (size_t a = 0; a < slice->d; a++) q[slice->along[a]] = y[a];
+        nh_action_values(slice->action, q, E);
+        const cJSON *locked = oracle_get(cJSON_GetArrayItem(oracle_get(json, "stages"), (int)r->stages - 1), "locked_inertia");
+        cr_assert_eq((size_t)cJSON_GetArraySize(locked), slice->d);
+        for (size_t a = 0; a < slice->d * slice->d; a++) {
+            double want = polarised(r, q, E + a / slice->d * m, E + a % slice->d * m),
+                   got = value_of(&n, cJSON_GetArrayItem(cJSON_GetArrayItem(locked, (int)(a / slice->d)), (int)(a % slice->d)));
+            cr_expect_float_eq(got, want, 1e-12 * (1 + fabs(want)), "%s: I_%zu is %.15g, not %.15g", path, a, got, want);
+        }
+        nh_dag_free(n.dag);
+        cJSON_Delete(json);
+        nh_reduction_free(r);
+    }
+}
+
+/* F_i = d/dt dLhat/dx'^i - dLhat/dx^i along the true motion through (x, x'), Lhat = 1/2 x' Khat x' - V with Khat of the lifted velocities. */
+static void force_of(const nh_reduction *r, const nh_chaplygin *c, const double *q, const double *speed, double *F)
+{
+    const nh_kinetic *k = r->kinetic;
+    size_t n = c->n, m = k->m, f = k->f, cell = n * n + 1;
+    nh_ex *e = nh_alloc_array(cell, sizeof *e);
+    double *om = nh_alloc_array(f * m + f * f + f + 2 * m + cell * (n + 1) + 1, sizeof *om), *matrix = om + f * m, *right = matrix + f * f, *v = right + f, *a = v + m, *z = a + m;
+    size_t along[16], g = 0;
+    nh_kinetic_values(k, f * m, k->omega, q, om);
+    for (size_t s = 0; s < m; s++) { /* the velocity of the whole system that the constraints add */
+        bool shape = false;
+        for (size_t i = 0; i < n; i++)
+            if (c->slice->shape[i] == s) shape = true, v[s] = speed[i];
+        if (!shape) along[g++] = s;
+    }
+    for (size_t i = 0; i < f; i++) {
+        for (size_t j = 0; j < f; j++) matrix[i + j * f] = om[i * m + along[j]];
+        for (size_t j = 0; j < n; j++) right[i] -= om[i * m + c->slice->shape[j]] * speed[j];
+    }
+    cr_assert(g == f && nh_solve(f, matrix, 1, right, NULL));
+    for (size_t j = 0; j < f; j++) v[along[j]] = right[j];
+    acceleration(k, q, v, a);
+    memcpy(e, c->K, n * n * sizeof *e);
+    e[n * n] = c->V;
+    nh_kinetic_values(k, cell, e, q, z);
+    for (size_t i = 0; i < n; i++) slope(k, cell, e, q, c->slice->shape[i], z + cell * (i + 1));
+    for (size_t i = 0; i < n; i++) {
+        F[i] = z[cell * (i + 1) + n * n];
+        for (size_t j = 0; j < n; j++) {
+            F[i] += z[i * n + j] * a[c->slice->shape[j]];
+            for (size_t l = 0; l < n; l++) F[i] += (z[cell * (l + 1) + i * n + j] - 0.5 * z[cell * (i + 1) + j * n + l]) * speed[j] * speed[l];
+        }
+    }
+    nh_free(e);
+    nh_free(om);
+}
+
+Test(reduce_papers, Helmholtzs_conditions_are_those_of_the_force_of_the_whole_system)
+{
+    static const char *const systems[] = {"crane", "euler_disk", "two_wheel_cart", "vertical_disk"};
+    for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "systems/%s.yaml", systems[i]);
+        nh_reduction *r = reduce_path(path, NULL, false);
+        cJSON *json = json_of(r);
+        const nh_chaplygin *c = r->stage[0].chaplygin;
+        size_t n = c->n, m = r->kinetic->m, listed = 0;
+        const double *q = r->kinetic->place + m;
+        double speed[8], v[16] = {0}, slope_of[64] = {0}, plus[8], less[8];
+        for (size_t j = 0; j < n; j++) speed[j] = v[c->slice->shape[j]] = 0.4 + 0.3 * (double)j;
+        for (size_t j = 0; j < n; j++) { /* F is quadratic: a central difference is exact but for rounding */
+            double at[8];
+            memcpy(at, speed, sizeof at);
+            at[j] += 0.5, force_of(r, c, q, at, plus);
+            at[j] -= 1, force_of(r, c, q, at, less);
+            for (size_t l = 0; l < n; l++) slope_of[l * n + j] = plus[l] - less[l];
+        }
+        names given = names_at(r, q, v);
+        const cJSON *conditions = oracle_get(cJSON_GetArrayItem(oracle_get(json, "stages"), 0), "helmholtz_conditions");
+        bool holds = true;
+        for (size_t a = 0; a < n; a++)
+            for (size_t b = a; b < n; b++) {
+                double want = slope_of[a * n + b] + slope_of[b * n + a], got = 0;
+                const cJSON *item;
+                cJSON_ArrayForEach(item, oracle_get(conditions, "symmetric"))
+                {
+                    if (strcmp(oracle_get(item, "i")->valuestring, r->kinetic->name[c->slice->shape[a]]) || strcmp(oracle_get(item, "j")->valuestring, r->kinetic->name[c->slice->shape[b]])) continue;
+                    got = value_of(&given, oracle_get(item, "value"));
+                    listed++;
+                }
+                holds &= fabs(want) < 1e-7;
+                cr_expect_float_eq(got, want, 1e-7 * (1 + fabs(want)), "%s: dF_%zu/dx'^%zu + .. is %.12g, not %.12g", path, a, b, got, want);
+            }
+        cr_expect_eq(cJSON_IsTrue(oracle_get(conditions, "holds")), holds, "%s: holds", path);
+        cr_expect_eq((size_t)cJSON_GetArraySize(oracle_get(conditions, "symmetric")), listed);
+        nh_dag_free(given.dag);
+        cJSON_Delete(json);
+        nh_reduction_free(r);
+    }
 }

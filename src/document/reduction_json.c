@@ -344,6 +344,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, r, s);
     if (s->kind == NH_STAGE_SECOND) put_second(to, r, s);
     nh_reduction_hamilton_json(r, s, to);
+    nh_reduction_helmholtz_json(r, s, to);
     if (s->by_stages) put_chain(to, s);
     if (s->kind == NH_STAGE_POINCARE || s->kind == NH_STAGE_SLICE) put_locked_inertia(to, s->shown_slice);
     nh_sheet *sheet = nh_reduction_sheet(r, s);
@@ -444,6 +445,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     for (size_t i = 0; i < r->stages; i++) chaplygin |= r->stage[i].kind == NH_STAGE_CHAPLYGIN;
     nh_json_put_bool(root, "chaplygin", chaplygin);
     put_joints(root, r);
+    nh_reduction_metric_json(r, root);
     nh_json_put_bool(root, "partial", r->partial);
     nh_json *full = put_choice(root, &r->full);
     if (!full) nh_json_put_null(root, "accuracy");

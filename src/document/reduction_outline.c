@@ -239,7 +239,9 @@ static void stage(nh_pen *p, const nh_reduction *r, size_t number)
     nh_reduction_conditions(s, p);
     nh_pen_close(p, NH_PEN_FACTS);
     nh_pen_sheet(p, nh_reduction_equations_sheet(r, s));
+    nh_pen_sheet(p, nh_reduction_inertia_sheet(r, s));
     nh_pen_sheet(p, nh_reduction_hamilton_sheet(r, s));
+    nh_pen_sheet(p, nh_reduction_helmholtz_sheet(r, s));
     nh_reduction_remarks(r, s, p);
     if (!p->ink->brief) nh_reduction_figures(r, s, p);
     nh_pen_sheet(p, nh_reduction_sheet(r, s));
@@ -352,6 +354,7 @@ void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style s
     if (r->all) group(p, r, r->all);
     if (r->group != r->all) group(p, r, r->group);
     joints(p, r);
+    nh_pen_sheet(p, nh_reduction_metric_sheet(r));
     nh_pen_section(p, "stages", "Reduced equations");
     if (!r->stages) nh_pen_words(p, "No reduction was possible.");
     full_motion(p, r);

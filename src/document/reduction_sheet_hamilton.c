@@ -8,7 +8,7 @@
 #include "graph/node.h"
 #include "reduction/hamilton.h"
 
-static const nh_hamilton *hamilton_of(const nh_reduction *r, const nh_reduction_stage *s)
+const nh_hamilton *nh_reduction_hamilton(const nh_reduction *r, const nh_reduction_stage *s)
 {
     nh_hamilton *h = nh_arena_alloc(r->arena, sizeof *h);
     if (s->kind == NH_STAGE_CHAPLYGIN && nh_hamilton_of_first(h, r->arena, s->chaplygin)) return h;
@@ -39,7 +39,7 @@ static size_t form(nh_sheet *s, const nh_hamilton *h)
 
 nh_sheet *nh_reduction_hamilton_sheet(const nh_reduction *r, const nh_reduction_stage *stage)
 {
-    const nh_hamilton *h = hamilton_of(r, stage);
+    const nh_hamilton *h = nh_reduction_hamilton(r, stage);
     if (!h || !h->n) return NULL;
     nh_sheet *s = nh_sheet_create(r->arena, h->dag);
     s->shown = r->options.shown;
@@ -58,16 +58,16 @@ nh_sheet *nh_reduction_hamilton_sheet(const nh_reduction *r, const nh_reduction_
     return s;
 }
 
-static void put(nh_json *to, const char *key, const nh_hamilton *h, nh_ex e)
+static void put(const nh_reduction *r, nh_json *to, const char *key, nh_ex e)
 {
-    char *text = nh_print_string(h->dag, e);
+    char *text = nh_print_short(r->kinetic->dag, e, r->options.written);
     nh_json_put_text(to, key, text);
     nh_free(text);
 }
 
 void nh_reduction_hamilton_json(const nh_reduction *r, const nh_reduction_stage *stage, nh_json *root)
 {
-    const nh_hamilton *h = hamilton_of(r, stage);
+    const nh_hamilton *h = nh_reduction_hamilton(r, stage);
     if (!h) {
         nh_json_put_null(root, "hamilton");
         return;
@@ -75,7 +75,7 @@ void nh_reduction_hamilton_json(const nh_reduction *r, const nh_reduction_stage 
     nh_json *to = nh_json_put_object(root, "hamilton"), *momenta = nh_json_put_array(to, "momenta"),
             *constants = nh_json_put_array(to, "constants"), *list = nh_json_put_array(to, "upsilon"),
             *speed = nh_json_put_object(to, "x_rate"), *rate = nh_json_put_object(to, "p_rate");
-    put(to, "hamiltonian", h, h->H);
+    put(r, to, "hamiltonian", h->H);
     for (size_t i = 0; i < h->n; i++) nh_json_add_text(momenta, nh_name_of(h->dag, h->p[i]));
     for (size_t a = 0; a < h->d; a++) nh_json_add_text(constants, nh_name_of(h->dag, h->m[a]));
     for (size_t i = 0; i < h->n; i++)
@@ -84,8 +84,8 @@ void nh_reduction_hamilton_json(const nh_reduction *r, const nh_reduction_stage 
             nh_json *item = nh_json_add_object(list);
             nh_json_put_text(item, "i", nh_name_of(h->dag, h->x[i]));
             nh_json_put_text(item, "j", nh_name_of(h->dag, h->x[j]));
-            put(item, "value", h, h->form[i * h->n + j]);
+            put(r, item, "value", h->form[i * h->n + j]);
         }
-    for (size_t i = 0; i < h->n; i++) put(speed, nh_name_of(h->dag, h->x[i]), h, h->speed[i]);
-    for (size_t i = 0; i < h->n; i++) put(rate, nh_name_of(h->dag, h->p[i]), h, h->rate[i]);
+    for (size_t i = 0; i < h->n; i++) put(r, speed, nh_name_of(h->dag, h->x[i]), h->speed[i]);
+    for (size_t i = 0; i < h->n; i++) put(r, rate, nh_name_of(h->dag, h->p[i]), h->rate[i]);
 }
