@@ -13,6 +13,7 @@
 #include "graph/parse.h"
 #include "reduction/group.h"
 #include "reduction/hamilton.h"
+#include "reduction/subspace.h"
 #include "scratch.h"
 
 static nh_reduction *reduce_path(const char *path, const char *group, bool equations)
@@ -525,4 +526,137 @@ Test(reduce_papers, Helmholtzs_conditions_are_those_of_the_force_of_the_whole_sy
         cJSON_Delete(json);
         nh_reduction_free(r);
     }
+}
+
+/* ---- what the constraints integrate to ---- */
+
+/* e_j projected to ker omega. */
+static void projected(const nh_kinetic *k, const double *q, size_t j, double *X)
+{
+    size_t m = k->m, f = k->f;
+    double *om = nh_alloc_array(f * m + f * f + f + 1, sizeof *om), *gram = om + f * m, *c = gram + f * f;
+    nh_kinetic_values(k, f * m, k->omega, q, om);
+    memset(X, 0, m * sizeof *X);
+    X[j] = 1;
+    for (size_t a = 0; a < f; a++) {
+        c[a] = om[a * m + j];
+        for (size_t b = 0; b < f; b++)
+            for (size_t s = 0; s < m; s++) gram[a + b * f] += om[a * m + s] * om[b * m + s];
+    }
+    cr_assert(nh_solve(f, gram, 1, c, NULL));
+    for (size_t a = 0; a < f; a++)
+        for (size_t s = 0; s < m; s++) X[s] -= om[a * m + s] * c[a];
+    nh_free(om);
+}
+
+/* [X_word[0], [X_word[1], ..]] of these fields, by differences of order four. */
+static void iterated(const nh_kinetic *k, const double *q, size_t length, const size_t *word, double *out)
+{
+    const double h = 0.02, weight[4] = {1. / 12, -2. / 3, 2. / 3, -1. / 12}, step[4] = {-2, -1, 1, 2};
+    double X[16], Y[16], at[16], value[16];
+    if (length == 1) {
+        projected(k, q, word[0], out);
+        return;
+    }
+    projected(k, q, word[0], X);
+    iterated(k, q, length - 1, word + 1, Y);
+    memset(out, 0, k->m * sizeof *out);
+    for (size_t i = 0; i < 4; i++) {
+        for (size_t s = 0; s < k->m; s++) at[s] = q[s] + step[i] * h * X[s];
+        iterated(k, at, length - 1, word + 1, value);
+        for (size_t s = 0; s < k->m; s++) out[s] += weight[i] / h * value[s];
+        for (size_t s = 0; s < k->m; s++) at[s] = q[s] + step[i] * h * Y[s];
+        projected(k, at, word[0], value);
+        for (size_t s = 0; s < k->m; s++) out[s] -= weight[i] / h * value[s];
+    }
+}
+
+static size_t rank_of(size_t m, size_t n, const double *a)
+{
+    double *out = nh_alloc_array(m * m, sizeof *out);
+    size_t rank = nh_span(m, n, a, 1e-4, out);
+    nh_free(out);
+    return rank;
+}
+
+/* The growth vector by brackets in numbers; sums that are constant, along allowed velocities; momenta, by the accelerations. */
+Test(reduce_papers, what_is_integrable_in_the_distribution_is_said)
+{
+    static const struct {
+        const char *system;
+        size_t length, rank[4], leaves, momenta;
+    } cases[] = {{"crane", 3, {4, 5, 7}, 1, 1}, {"two_wheel_cart", 3, {2, 3, 4}, 1, 0}, {"sleigh", 2, {2, 3}, 0, 0}, {"euler_disk", 3, {3, 4, 5}, 0, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "systems/%s.yaml", cases[i].system);
+        nh_reduction *r = reduce_path(path, NULL, false);
+        const nh_kinetic *k = r->kinetic;
+        size_t m = k->m, word[3], n = 0, found = 0;
+        const double *q = k->place;
+        double *all = nh_alloc_array(m * (m + m * m + m * m * m), sizeof *all), v[16], a[16];
+        cr_assert_eq(r->growth.length, cases[i].length, "%s", path);
+        for (size_t length = 1; length <= cases[i].length; length++) {
+            size_t words = length == 1 ? m : length == 2 ? m * m : m * m * m;
+            for (size_t w = 0; w < words; w++) {
+                word[0] = w % m, word[1] = w / m % m, word[2] = w / m / m;
+                if (length > 1 && word[length - 1] <= word[length - 2]) continue;
+                iterated(k, q, length, word, all + m * n++);
+            }
+            cr_expect_eq(rank_of(m, n, all), cases[i].rank[length - 1], "%s: rank %zu", path, rank_of(m, n, all));
+            cr_expect_eq(r->growth.rank[length - 1], cases[i].rank[length - 1], "%s", path);
+        }
+        cr_expect_eq(r->leaf_count, cases[i].leaves, "%s", path);
+        for (size_t p = 0; p < 4; p++) {
+            allowed(k, q, p, v);
+            acceleration(k, q, v, a);
+            for (size_t j = 0; j < r->leaf_count; j++) {
+                double along = 0, size = 0;
+                for (size_t s = 0; s < m; s++) {
+                    double slope_of;
+                    slope(k, 1, &r->leaf[j], q, s, &slope_of);
+                    along += slope_of * v[s], size = fmax(size, fabs(slope_of * v[s]));
+                }
+                cr_expect(size > 0.01 && fabs(along) < 1e-10 * size, "%s: %g of %g", path, along, size);
+            }
+            for (size_t j = 0; j < r->momenta.count; j++) {
+                const nh_momentum *P = &r->momenta.momentum[j];
+                const double h = 1e-3;
+                double rate = 0, value = 0, weight[4] = {1. / 12, -2. / 3, 2. / 3, -1. / 12}, step[4] = {-2, -1, 1, 2};
+                nh_ex in[32];
+                memcpy(in, k->q, m * sizeof *in), memcpy(in + m, k->v, m * sizeof *in);
+                nh_tape *tape = nh_tape_create(k->dag, 2 * m, in, 1, &P->value, r->system->parameters, k->model->parameter, k->model->parameter_value);
+                nh_tape_work *work = nh_tape_work_create(tape);
+                for (size_t t = 0; t < 4; t++) {
+                    double at[32];
+                    for (size_t s = 0; s < m; s++) at[s] = q[s] + step[t] * h * v[s], at[m + s] = v[s] + step[t] * h * a[s];
+                    nh_tape_eval(tape, work, at, &value);
+                    rate += weight[t] / h * value;
+                }
+                cr_expect(fabs(rate) < 1e-8 * (1 + fabs(value)), "%s: momentum %zu changes by %g", path, j + 1, rate);
+                found += p == 0 && P->of_lagrangian && P->proof.all_parameters;
+                nh_tape_work_free(work);
+                nh_tape_free(tape);
+            }
+        }
+        cr_expect_eq(found, cases[i].momenta, "%s: %zu momenta of L", path, found);
+        nh_free(all);
+        nh_reduction_free(r);
+    }
+}
+
+/* Both facts about the crane stand on the first screen, and in --details. */
+Test(reduce_papers, the_integral_of_the_crane_is_on_the_first_screen)
+{
+    nh_reduction *r = reduce_path("systems/crane.yaml", NULL, false);
+    for (int verbose = 0; verbose < 2; verbose++) {
+        nh_text text;
+        nh_text_init(&text);
+        nh_reduction_write(r, NULL, (nh_pen_style){.form = NH_PEN_TEXT, .verbose = verbose}, &text);
+        const char *s = nh_text_string(&text);
+        cr_expect(strstr(s, "  b*(psi2 - psi3) + 2*c*(theta + psi1)\n"), "%s", s);
+        cr_expect(strstr(s, "4,5,7 of 8, so it is not bracket generating (proved)"), "%s", s);
+        cr_expect(strstr(s, "(theta' + psi1')*("), "%s", s);
+        nh_text_clear(&text);
+    }
+    nh_reduction_free(r);
 }

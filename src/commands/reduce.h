@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "commands/request.h"
+#include "geometry/growth.h"
 #include "motion/dynamics.h"
 #include "reduction/chain.h"
 #include "reduction/group.h"
@@ -153,6 +154,11 @@ struct nh_reduction {
     size_t unused_count;
     nh_reduction_unused unused[24];
     nh_momenta momenta;
+    /* of linear constraints: how D grows by brackets (length 0: not computed), and sums of coordinates that it keeps
+     * constant: up to m less the last rank */
+    nh_growth growth;
+    size_t leaf_count;
+    nh_ex *leaf;
     /* displacements of joints that leave the kinetic energy invariant; NULL unless the system is given by bodies */
     nh_chain_symmetries *joints;
     nh_generator *of_joint; /* joints->fields: these fields, with what they leave invariant */

@@ -241,6 +241,7 @@ size_t nh_reduction_linear_stage(const nh_reduction *r)
 const char *nh_reduction_momentum_kind(const nh_momentum *p)
 {
     if (p->moving) return "energy less the momentum of";
+    if (p->of_lagrangian) return "symmetry of the Lagrangian in the distribution: momentum of";
     return p->horizontal ? "horizontal symmetry: momentum of"
            : p->gauge    ? "gauge momentum of"
                          : "not horizontal, but conserved: momentum of";

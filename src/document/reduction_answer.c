@@ -135,11 +135,30 @@ static void momenta(const nh_reduction *r, bool colour, nh_text *out)
         nh_free(value);
         nh_text_add(&words, m->moving ? "energy less the momentum of " : "momentum of ");
         put_field(r->kinetic, m->field, &words);
+        if (m->of_lagrangian) nh_text_add(&words, ", a symmetry of the Lagrangian that the constraints allow");
         nh_text_addf(&words, "; %s%s%s.", m->proof.proved ? "proved" : "to rounding",
                      m->proof.all_parameters ? "" : nh_facts_holds(r->kinetic->model, &m->proof, false),
                      m->local ? "; not the same after a full turn of an angle" : "");
         nh_screen_say(out, NH_SCREEN_HANG, &words);
     }
+}
+
+/* What the constraints alone keep constant. */
+static void constant(const nh_reduction *r, bool colour, nh_text *out)
+{
+    enum { most_lines = 4 };
+    size_t integrals = nh_reduction_leaves(r);
+    nh_text words;
+    if (!integrals) return;
+    nh_text_add(out, r->momenta.count ? "" : "\nConserved\n");
+    for (size_t i = 0; i < r->leaf_count; i++) {
+        char *value = nh_print_short(r->kinetic->dag, r->leaf[i], 80 * NH_SCREEN_LINES);
+        nh_screen_put(out, colour, 2, "", value, most_lines, NULL);
+        nh_free(value);
+    }
+    nh_text_init(&words);
+    nh_reduction_growth_words(r, &words);
+    nh_screen_say(out, r->leaf_count ? NH_SCREEN_HANG : 2, &words);
 }
 
 /* How the printed equations and the reduced motions compare with the full ones: the worst of all stages. */
@@ -172,6 +191,7 @@ void nh_reduction_write_answer(const nh_reduction *r, bool colour, nh_text *out)
     group(r, colour, out);
     stages(r, out);
     momenta(r, colour, out);
+    constant(r, colour, out);
     check(r, out);
     for (size_t i = 0; i < r->warnings; i++)
         nh_screen_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), out);

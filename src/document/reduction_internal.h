@@ -21,6 +21,11 @@ void nh_reduction_full_json(const nh_reduction *reduction, nh_json *to);
 
 void nh_reduction_write_answer(const nh_reduction *reduction, bool colour, nh_text *out);
 
+/* How many functions of the positions the constraints alone keep constant; 0 where this is not known. */
+size_t nh_reduction_leaves(const nh_reduction *reduction);
+/* "constant by the constraints alone, .." after these functions: the growth vector. */
+void nh_reduction_growth_words(const nh_reduction *reduction, nh_text *out);
+
 /* ---- sheets ---- */
 
 /* The brackets of a group's generators: one section. */

@@ -266,6 +266,12 @@ static void put_second(nh_json *to, const nh_reduction *r, const nh_reduction_st
     put_measure(to, r, s);
 }
 
+static void put_hamilton(nh_json *to, const nh_reduction *r, const nh_reduction_stage *s)
+{
+    nh_reduction_hamilton_json(r, s, to);
+    nh_reduction_helmholtz_json(r, s, to);
+}
+
 static void put_chain(nh_json *to, const nh_reduction_stage *s)
 {
     const nh_ideals *c = s->chain;
@@ -343,8 +349,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     }
     if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, r, s);
     if (s->kind == NH_STAGE_SECOND) put_second(to, r, s);
-    nh_reduction_hamilton_json(r, s, to);
-    nh_reduction_helmholtz_json(r, s, to);
+    put_hamilton(to, r, s);
     if (s->by_stages) put_chain(to, s);
     if (s->kind == NH_STAGE_POINCARE || s->kind == NH_STAGE_SLICE) put_locked_inertia(to, s->shown_slice);
     nh_sheet *sheet = nh_reduction_sheet(r, s);
@@ -384,16 +389,36 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_json *item = nh_json_add_object(list), *field = nh_json_put_object(item, "field");
         nh_json_put_text(item, "kind",
-                         p->moving       ? "moving energy"
-                         : p->horizontal ? "horizontal"
-                         : p->gauge      ? "gauge"
-                                         : "momentum");
+                         p->moving          ? "moving energy"
+                         : p->of_lagrangian ? "lagrangian"
+                         : p->horizontal    ? "horizontal"
+                         : p->gauge         ? "gauge"
+                                            : "momentum");
         for (size_t s = 0; s < k->m; s++)
             if (!nh_is_zero(k->dag, p->field[s])) put_expression(field, k->name[s], k->dag, p->field[s]);
         put_expression(item, "expression", k->dag, p->value);
         nh_json_put_bool(item, "proved", p->proof.proved);
         nh_facts_put_holds(item, k->model, &p->proof);
         nh_json_put_bool(item, "local", p->local);
+    }
+}
+
+static void put_growth(nh_json *root, const nh_reduction *r)
+{
+    const nh_growth *g = &r->growth;
+    if (!g->length) {
+        nh_json_put_null(root, "distribution");
+        return;
+    }
+    nh_json *to = nh_json_put_object(root, "distribution"), *ranks = nh_json_put_array(to, "growth_vector"),
+            *list = nh_json_put_array(to, "constant");
+    for (size_t i = 0; i < g->length; i++) nh_json_add_number(ranks, (double)g->rank[i]);
+    nh_json_put_number(to, "integrals", (double)(g->dimension - g->rank[g->length - 1]));
+    nh_json_put_bool(to, "proved", g->proved);
+    for (size_t i = 0; i < r->leaf_count; i++) {
+        char *text = nh_print_string(r->kinetic->dag, r->leaf[i]);
+        nh_json_add_text(list, text);
+        nh_free(text);
     }
 }
 
@@ -457,6 +482,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
     nh_reduction_full_json(r, root);
     put_momenta(root, r);
+    put_growth(root, r);
     put_unused(root, r);
     nh_json_put_number(root, "coordinates", (double)r->kinetic->m);
     nh_json_put_number(root, "seconds", r->seconds);

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "document/simulation.h"
 #include "document/facts.h"
+#include "document/formula.h"
 #include "document/reduction_internal.h"
 #include "document/screen.h"
 #include "graph/node.h"
@@ -190,6 +191,25 @@ static void joints(nh_pen *p, const nh_reduction *r)
     rules(p, c);
 }
 
+/* ---- what the constraints integrate to ---- */
+
+static void growth(nh_pen *p, const nh_reduction *r)
+{
+    nh_text words;
+    if (!r->growth.length) return;
+    nh_pen_open(p, NH_PEN_HEADING, NULL, "What the constraints alone keep constant");
+    nh_pen_close(p, NH_PEN_HEADING);
+    for (size_t i = 0; i < r->leaf_count; i++) {
+        char *text = nh_formula_text(r->kinetic->dag, r->leaf[i], r->options.shown);
+        nh_pen_words(p, "<%s>", text);
+        nh_free(text);
+    }
+    nh_text_init(&words);
+    nh_reduction_growth_words(r, &words);
+    nh_pen_words(p, "%s", nh_text_string(&words));
+    nh_text_clear(&words);
+}
+
 /* ---- stages ---- */
 
 /* Which of them theorem 4.1 gives. */
@@ -354,6 +374,7 @@ void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style s
     if (r->all) group(p, r, r->all);
     if (r->group != r->all) group(p, r, r->group);
     joints(p, r);
+    growth(p, r);
     nh_pen_sheet(p, nh_reduction_metric_sheet(r));
     nh_pen_section(p, "stages", "Reduced equations");
     if (!r->stages) nh_pen_words(p, "No reduction was possible.");

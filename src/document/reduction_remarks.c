@@ -30,6 +30,34 @@ void nh_reduction_conditions(const nh_reduction_stage *s, nh_pen *p)
                     t->orbit, t->d - t->orbit);
 }
 
+/* ---- what the constraints integrate to ---- */
+
+size_t nh_reduction_leaves(const nh_reduction *r)
+{
+    const nh_growth *g = &r->growth;
+    return g->length && !g->cut ? g->dimension - g->rank[g->length - 1] : 0;
+}
+
+void nh_reduction_growth_words(const nh_reduction *r, nh_text *out)
+{
+    const nh_growth *g = &r->growth;
+    size_t n = nh_reduction_leaves(r), named = r->leaf_count;
+    if (named)
+        nh_text_add(out,
+                    named == 1 ? "constant by the constraints alone: " : "constant by the constraints alone, each: ");
+    nh_text_add(out, named ? "the growth vector of the distribution is " : "The growth vector of the distribution is ");
+    for (size_t i = 0; i < g->length; i++) nh_text_addf(out, "%s%zu", i ? "," : "", g->rank[i]);
+    nh_text_addf(out, " of %zu, ", g->dimension);
+    if (g->cut) nh_text_add(out, "as far as it was computed");
+    else nh_text_add(out, n ? "so it is not bracket generating" : "so it is bracket generating");
+    if (!n || g->cut) nh_text_add(out, ".");
+    else if (named >= n) nh_text_add(out, g->proved ? " (proved)." : " (by numbers).");
+    else
+        nh_text_addf(out, "%s; %zu%s function%s of the positions %s constant, and analyze looks for %s.",
+                     g->proved ? " (proved)" : " (by numbers)", n - named, named ? " more" : "",
+                     n - named == 1 ? "" : "s", n - named == 1 ? "is" : "are", n - named == 1 ? "it" : "them");
+}
+
 /* ---- the measure ---- */
 
 /* First what positive parameters can satisfy, then the rest. */

@@ -1,5 +1,5 @@
-/* reduction_sheet_metric: the metric of the kinetic energy, the locked inertia of a stage, and Helmholtz's conditions on
- * its gyroscopic force. */
+/* reduction_sheet_metric: the metric of the kinetic energy, the locked inertia of a stage, and Helmholtz's conditions
+ * on its gyroscopic force. */
 #include "document/reduction_internal.h"
 
 #include "base/memory.h"

@@ -10,8 +10,8 @@
  *     Ups_ij = U(h_k x'^k + e_a v^a; h_i, h_j) + v^a U(h_i; e_a, h_j) + m_a Bv^a_ij,    h_i = d_i - Av^a_i e_a
  *
  * where U(l; i, j) = U_lij.  The force on h_i has the part U(w; h_i, e_a) v^a, w = h_j x'^j + e_b v^b; by condition
- * (ii) U(l; e_a, j) is antisymmetric in l and j, so that it is v^a U(h_i; e_a, w), in which the e_b v^b cancel.  For other
- * groups the equations have m([Av_i, v]) more, and m moves: they are not given here. */
+ * (ii) U(l; e_a, j) is antisymmetric in l and j, so that it is v^a U(h_i; e_a, w), in which the e_b v^b cancel.
+ * For other groups the equations have m([Av_i, v]) more, and m moves: they are not given here. */
 #ifndef NH_HAMILTON_H
 #define NH_HAMILTON_H
 
