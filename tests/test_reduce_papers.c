@@ -660,3 +660,80 @@ Test(reduce_papers, the_integral_of_the_crane_is_on_the_first_screen)
     }
     nh_reduction_free(r);
 }
+
+/* ---- names, and the slice ---- */
+
+static size_t occurrences(const char *text, const char *words)
+{
+    size_t n = 0;
+    for (const char *at = strstr(text, words); at; at = strstr(at + 1, words)) n++;
+    return n;
+}
+
+/* Parameters that are called as momenta and velocities of the reduced equations would be: these get other names, in text and JSON. */
+Test(reduce_papers, names_of_the_file_are_not_given_to_anything_else)
+{
+    static const char *const taken[] = {"p_h", "m_1", "zeta_1", "v1", "H", "zeta1", "mu_3", "p_x_r"};
+    nh_reduction *r = reduce_text("name: names\nparameters: {m: 2, J: 0.7, a: 0.5, b: 0.8, p_h: 0.4, m_1: 0.6, zeta_1: 0.05, v1: 0.1, H: 0.3, zeta1: 0.2, mu_3: 0.3, p_x_r: 1}\n"
+                                  "bodies:\n  - {name: cart, mass: m, inertia: [0, 0, J + v1 + H + zeta1 + mu_3], center: [a, 0, 0]}\n  - {name: rod, mass: 0.4*p_x_r, inertia: [0, 0, p_h + m_1 + zeta_1]}\n"
+                                  "joints:\n  - {type: planar, child: cart, coordinates: [x, y, h]}\n  - {type: revolute, parent: cart, child: rod, at: [b, 0, 0], axis: z, coordinates: [s]}\n"
+                                  "wheels:\n  - {type: knife-edge, body: cart, axis: y}\ndomain: {h: [-1.2, 1.2]}\n", false);
+    nh_text text;
+    nh_text_init(&text);
+    nh_reduction_write(r, NULL, (nh_pen_style){.form = NH_PEN_TEXT, .verbose = true}, &text);
+    const char *s = strstr(nh_text_string(&text), "\nReduced equations"); /* behind the parameters' values */
+    cr_assert_not_null(s);
+    for (size_t i = 0; i < sizeof taken / sizeof *taken; i++) {
+        char words[40];
+        snprintf(words, sizeof words, "\n  %s = ", taken[i]);
+        cr_expect_eq(occurrences(s, words), 0, "%s is defined again", taken[i]);
+    }
+    cr_expect(occurrences(s, "\n  p_h_r = ") == 2 && occurrences(s, "\n  m_1_r = ") == 1 && occurrences(s, "\n  mu_3_r = ") == 1 && occurrences(s, "\n  zeta_1_r = ") == 1, "%s", s);
+    cr_expect(occurrences(s, "\n  H_r = ") == 2, "%s", s);
+    cJSON *json = json_of(r);
+    const cJSON *stage, *item;
+    cJSON_ArrayForEach(stage, oracle_get(json, "stages"))
+    {
+        cJSON_ArrayForEach(item, oracle_get(stage, "momentum"))
+            for (size_t i = 0; i < sizeof taken / sizeof *taken; i++) cr_expect(strcmp(oracle_get(item, "of")->valuestring, taken[i]), "%s", taken[i]);
+        cJSON_ArrayForEach(item, oracle_get(stage, "velocities"))
+            for (size_t i = 0; i < sizeof taken / sizeof *taken; i++) cr_expect(strcmp(item->valuestring, taken[i]), "%s", taken[i]);
+    }
+    cJSON_Delete(json);
+    nh_text_clear(&text);
+    nh_reduction_free(r);
+}
+
+/* Every stage says on which slice its equations hold, and which shape coordinates the group moves: a ball on a slope, turned by the spin about its own axis. */
+Test(reduce_papers, the_slice_is_named)
+{
+    static const char *const systems[] = {"crane", "euler_disk", "ball_on_slope"};
+    for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "systems/%s.yaml", systems[i]);
+        nh_reduction *r = reduce_path(path, NULL, false);
+        nh_text text;
+        nh_text_init(&text);
+        nh_reduction_write(r, NULL, (nh_pen_style){.form = NH_PEN_TEXT, .verbose = true}, &text);
+        const char *s = nh_text_string(&text);
+        cr_expect_eq(occurrences(s, "\n  Slice: "), r->stages, "%s: %zu slices of %zu stages", path, occurrences(s, "\n  Slice: "), r->stages);
+        cJSON *json = json_of(r);
+        for (size_t k = 0; k < r->stages; k++) {
+            const nh_slice *slice = r->stage[k].shown_slice;
+            const cJSON *moved = oracle_get(cJSON_GetArrayItem(oracle_get(json, "stages"), (int)k), "moved");
+            int want = 0;
+            double E[256];
+            nh_action_values(slice->action, slice->kinetic->place, E);
+            for (size_t c = 0; c < slice->n; c++) {
+                double size = 0;
+                for (size_t a = 0; a < slice->d; a++) size = fmax(size, fabs(E[a * slice->m + slice->shape[c]]));
+                want += size > 0;
+            }
+            cr_expect_eq(cJSON_GetArraySize(moved), want, "%s, stage %zu", path, k + 1);
+            if (want) cr_expect(strstr(s, "; the group moves "), "%s", s);
+        }
+        cJSON_Delete(json);
+        nh_text_clear(&text);
+        nh_reduction_free(r);
+    }
+}

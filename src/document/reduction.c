@@ -46,7 +46,7 @@ size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s
         e[n++] = (nh_reduction_equation){nh_arena_printf(arena, "%s'", o->momentum[i]), shortened(r, o->F[i])};
     for (size_t a = 0; a < o->d; a++)
         e[n++] = (nh_reduction_equation){
-            nh_arena_printf(arena, "%s_%zu", s->kind == NH_STAGE_SECOND ? "eta" : "zeta", a + 1),
+            nh_kinetic_unused_name(r->kinetic, "%s_%zu", s->kind == NH_STAGE_SECOND ? "eta" : "zeta", a + 1),
             shortened(r, o->zeta[a])};
     *out = e;
     return n;
@@ -191,9 +191,9 @@ const char *nh_reduction_letters(const nh_reduction *r, const nh_reduction_stage
                                s->shown->d ? p : "$p_{i}$: momenta of the shape", group);
     case NH_STAGE_SECOND:
         return nh_arena_printf(arena,
-                               "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ (v1, .. in text and "
+                               "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ (%s, .. in text and "
                                "code), the velocity %s; $eta_{a}$: %s",
-                               p,
+                               p, nh_name_of(r->kinetic->dag, s->shown->w[s->shown->n]),
                                shape ? "$eta_{a} + \\breve{A} <x'>$ that belongs to it by the mechanical connection"
                                      : "that belongs to it",
                                group);

@@ -320,6 +320,16 @@ static nh_json *put_choice(nh_json *to, const nh_reduction_choice *c)
     return item;
 }
 
+static void put_slice(nh_json *to, const nh_reduction *r, const nh_reduction_stage *s)
+{
+    const nh_slice *slice = s->shown_slice;
+    nh_dag *d = r->kinetic->dag;
+    nh_json *y = nh_json_put_object(to, "slice"), *list = nh_json_put_array(to, "moved");
+    for (size_t a = 0; a < slice->d; a++) put_expression(y, slice->kinetic->name[slice->along[a]], d, slice->y[a]);
+    for (size_t i = 0; i < slice->n; i++)
+        if (nh_reduction_moved(slice, i)) nh_json_add_text(list, nh_name_of(d, slice->x[i]));
+}
+
 static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction_stage *s)
 {
     nh_json *to = nh_json_add_object(stages), *list = nh_json_put_array(to, "shape");
@@ -330,9 +340,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     nh_json_put_bool(to, "alternative", nh_reduction_instead(r, (size_t)(s - r->stage)));
     put_fields(to, s->action);
     for (size_t i = 0; i < s->shown->n; i++) nh_json_add_text(list, nh_name_of(d, s->shown->x[i]));
-    nh_json *slice = nh_json_put_object(to, "slice");
-    for (size_t a = 0; a < s->shown_slice->d; a++)
-        put_expression(slice, s->shown_slice->kinetic->name[s->shown_slice->along[a]], d, s->shown_slice->y[a]);
+    put_slice(to, r, s);
     list = nh_json_put_array(to, "velocities");
     for (size_t i = 0; i < s->shown->r; i++) nh_json_add_text(list, nh_name_of(d, s->shown->w[i]));
     nh_reduction_equation *e;
@@ -403,25 +411,6 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
     }
 }
 
-static void put_growth(nh_json *root, const nh_reduction *r)
-{
-    const nh_growth *g = &r->growth;
-    if (!g->length) {
-        nh_json_put_null(root, "distribution");
-        return;
-    }
-    nh_json *to = nh_json_put_object(root, "distribution"), *ranks = nh_json_put_array(to, "growth_vector"),
-            *list = nh_json_put_array(to, "constant");
-    for (size_t i = 0; i < g->length; i++) nh_json_add_number(ranks, (double)g->rank[i]);
-    nh_json_put_number(to, "integrals", (double)(g->dimension - g->rank[g->length - 1]));
-    nh_json_put_bool(to, "proved", g->proved);
-    for (size_t i = 0; i < r->leaf_count; i++) {
-        char *text = nh_print_string(r->kinetic->dag, r->leaf[i]);
-        nh_json_add_text(list, text);
-        nh_free(text);
-    }
-}
-
 static void put_unused(nh_json *root, const nh_reduction *r)
 {
     nh_json *list = nh_json_put_array(root, "not_used");
@@ -482,7 +471,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
     nh_reduction_full_json(r, root);
     put_momenta(root, r);
-    put_growth(root, r);
+    nh_reduction_growth_json(r, root);
     put_unused(root, r);
     nh_json_put_number(root, "coordinates", (double)r->kinetic->m);
     nh_json_put_number(root, "seconds", r->seconds);

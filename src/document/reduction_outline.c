@@ -10,6 +10,7 @@
 #include "document/reduction_internal.h"
 #include "document/screen.h"
 #include "graph/node.h"
+#include "graph/print.h"
 
 /* "SE(2) x SO(2)^3" as it is typeset. */
 static const char *group_name(const nh_reduction *r, const nh_pen *p, const char *name)
@@ -212,6 +213,28 @@ static void growth(nh_pen *p, const nh_reduction *r)
 
 /* ---- stages ---- */
 
+/* Where the equations are written, and which shape coordinates are others there than along a motion. */
+static void slice(nh_pen *p, const nh_reduction *r, const nh_slice *s)
+{
+    if (!s->d) return;
+    nh_pen_fact_begin(p, "Slice");
+    for (size_t a = 0; a < s->d; a++) {
+        char *value = nh_print_string(s->dag, s->y[a]);
+        nh_pen_say(p, "%s", a ? ", " : "");
+        nh_pen_name(p, s->kinetic->name[s->along[a]]);
+        nh_pen_say(p, " = %s", value);
+        nh_free(value);
+    }
+    size_t moved = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        if (!nh_reduction_moved(s, i)) continue;
+        nh_pen_say(p, moved++ ? ", " : "; the group moves ");
+        nh_pen_name(p, nh_name_of(r->kinetic->dag, s->x[i]));
+    }
+    nh_pen_say(p, "%s", moved ? ": in the equations these are the values where the orbit meets the slice" : "");
+    nh_pen_close(p, NH_PEN_FACT);
+}
+
 /* Which of them theorem 4.1 gives. */
 static void first_joint(nh_pen *p, const nh_reduction *r, const nh_action *action)
 {
@@ -240,6 +263,7 @@ static void divided_out(nh_pen *p, const nh_reduction *r, const nh_reduction_sta
         nh_pen_say(p, i ? ", " : ""), nh_pen_name(p, nh_name_of(r->kinetic->dag, o->x[i]));
     nh_pen_say(p, "%s", o->n ? "" : "a point");
     nh_pen_close(p, NH_PEN_FACT);
+    slice(p, r, s->shown_slice);
     const nh_chart *chart = s->kind == NH_STAGE_QUOTIENT && r->whole ? r->whole->chart : NULL;
     if (!chart || !chart->branch) return;
     char *branch = nh_chart_branch_name(chart, chart->branch);

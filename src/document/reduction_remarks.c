@@ -7,6 +7,7 @@
 #include "document/formula.h"
 #include "document/reduction_internal.h"
 #include "graph/node.h"
+#include "graph/print.h"
 
 void nh_reduction_conditions(const nh_reduction_stage *s, nh_pen *p)
 {
@@ -28,6 +29,13 @@ void nh_reduction_conditions(const nh_reduction_stage *s, nh_pen *p)
     else
         nh_pen_fact(p, "Momentum", "moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu",
                     t->orbit, t->d - t->orbit);
+}
+
+bool nh_reduction_moved(const nh_slice *s, size_t i)
+{
+    for (size_t a = 0; a < s->d; a++)
+        if (!nh_is_zero(s->dag, s->action->generator[a].component[s->shape[i]])) return true;
+    return false;
 }
 
 /* ---- what the constraints integrate to ---- */
@@ -56,6 +64,25 @@ void nh_reduction_growth_words(const nh_reduction *r, nh_text *out)
         nh_text_addf(out, "%s; %zu%s function%s of the positions %s constant, and analyze looks for %s.",
                      g->proved ? " (proved)" : " (by numbers)", n - named, named ? " more" : "",
                      n - named == 1 ? "" : "s", n - named == 1 ? "is" : "are", n - named == 1 ? "it" : "them");
+}
+
+void nh_reduction_growth_json(const nh_reduction *r, nh_json *root)
+{
+    const nh_growth *g = &r->growth;
+    if (!g->length) {
+        nh_json_put_null(root, "distribution");
+        return;
+    }
+    nh_json *to = nh_json_put_object(root, "distribution"), *ranks = nh_json_put_array(to, "growth_vector"),
+            *list = nh_json_put_array(to, "constant");
+    for (size_t i = 0; i < g->length; i++) nh_json_add_number(ranks, (double)g->rank[i]);
+    nh_json_put_number(to, "integrals", (double)(g->dimension - g->rank[g->length - 1]));
+    nh_json_put_bool(to, "proved", g->proved);
+    for (size_t i = 0; i < r->leaf_count; i++) {
+        char *text = nh_print_string(r->kinetic->dag, r->leaf[i]);
+        nh_json_add_text(list, text);
+        nh_free(text);
+    }
 }
 
 /* ---- the measure ---- */

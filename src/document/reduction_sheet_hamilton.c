@@ -31,7 +31,7 @@ static size_t form(nh_sheet *s, const nh_hamilton *h)
             for (size_t k = 0; k < n + h->d; k++)
                 nh_sheet_add(s, h->U[(k * n + i) * n + j],
                              k < n ? nh_sheet_label(s, "<%s'>", nh_name_of(h->dag, h->x[k]))
-                                   : nh_sheet_label(s, "m_{%zu}", k - n + 1));
+                                   : nh_sheet_label(s, "<%s>", nh_name_of(h->dag, h->m[k - n])));
             listed++;
         }
     return listed;
@@ -44,7 +44,7 @@ nh_sheet *nh_reduction_hamilton_sheet(const nh_reduction *r, const nh_reduction_
     nh_sheet *s = nh_sheet_create(r->arena, h->dag);
     s->shown = r->options.shown;
     nh_sheet_begin(s, "hamilton", "Hamilton's form", "");
-    nh_sheet_formula(s, "H", h->H);
+    nh_sheet_formula(s, nh_sheet_label(s, "<%s>", nh_kinetic_unused_name(r->kinetic, "H")), h->H);
     bool bent = form(s, h) > 0, levels = nh_reduction_on_levels(stage);
     const char *more = stage->kind == NH_STAGE_SECOND ? "; $m_{a}$ is constant" : "";
     s->section->words = nh_sheet_label(

@@ -146,7 +146,8 @@ static void closed_lines(const nh_reduction *r, const nh_hamilton *h, nh_sheet *
                     s, "",
                     nh_sheet_label(s, "(\\d Upsilon)_{<%s>,<%s>,<%s>}", name_of(h, i), name_of(h, j), name_of(h, k)));
                 for (size_t a = 0; a < h->d; a++)
-                    nh_sheet_add(s, tidy(r, closed(h, a, i, j, k)), nh_sheet_label(s, "m_{%zu}", a + 1));
+                    nh_sheet_add(s, tidy(r, closed(h, a, i, j, k)),
+                                 nh_sheet_label(s, "<%s>", nh_name_of(h->dag, h->m[a])));
             }
 }
 

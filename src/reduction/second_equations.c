@@ -131,15 +131,15 @@ void nh_second_form(const nh_second *s, size_t count, nh_ex *out)
 static void names(nh_second *s)
 {
     nh_reduced *o = &s->reduced;
-    nh_arena *arena = s->hat->arena;
+    const nh_kinetic *k = s->first->slice->kinetic;
     for (size_t i = 0; i < s->n; i++) {
         size_t c = s->slice.shape[i];
         o->w[i] = o->dx[i] = s->hat->v[c];
-        o->momentum[i] = nh_arena_printf(arena, "p_%s", s->hat->name[c]);
+        o->momentum[i] = nh_kinetic_unused_name(k, "p_%s", s->hat->name[c]);
     }
     for (size_t a = 0; a < s->d; a++) {
-        o->w[s->n + a] = nh_symbol_fresh(s->slice.dag, nh_arena_printf(arena, "v%zu", a + 1));
-        o->momentum[s->n + a] = nh_arena_printf(arena, "m_%zu", a + 1);
+        o->w[s->n + a] = nh_symbol_fresh(s->slice.dag, nh_kinetic_unused_name(k, "v%zu", a + 1));
+        o->momentum[s->n + a] = nh_kinetic_unused_name(k, "m_%zu", a + 1);
     }
 }
 
