@@ -730,10 +730,56 @@ Test(reduce_papers, the_slice_is_named)
                 want += size > 0;
             }
             cr_expect_eq(cJSON_GetArraySize(moved), want, "%s, stage %zu", path, k + 1);
-            if (want) cr_expect(strstr(s, "; the group moves "), "%s", s);
+            if (want) cr_expect(strstr(s, ": values on it of "), "%s", s);
         }
         cJSON_Delete(json);
         nh_text_clear(&text);
+        nh_reduction_free(r);
+    }
+}
+
+/* Where the group moves a coordinate its value on the slice has a name of its own: the rates of the JSON in these names are those of the stage. */
+Test(reduce_papers, moved_coordinates_have_names_of_their_own)
+{
+    static const struct {
+        const char *system, *moved;
+    } cases[] = {{"ball_on_turntable", "x"}, {"ball_on_slope", "theta"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char path[100], own[40];
+        snprintf(path, sizeof path, "systems/%s.yaml", cases[i].system);
+        snprintf(own, sizeof own, "%s_s", cases[i].moved);
+        nh_reduction *r = reduce_path(path, NULL, false);
+        cJSON *json = json_of(r);
+        const cJSON *stage = cJSON_GetArrayItem(oracle_get(json, "stages"), 0), *item;
+        const nh_reduced *o = r->stage[0].shown;
+        bool found = false;
+        cJSON_ArrayForEach(item, oracle_get(stage, "shape"))
+        {
+            found |= !strcmp(item->valuestring, own);
+            cr_expect(strcmp(item->valuestring, cases[i].moved), "%s: %s", path, item->valuestring);
+        }
+        cr_expect(found, "%s: no %s", path, own);
+        names given = {.dag = nh_dag_create()};
+        double at[16], F[8];
+        nh_ex in[16];
+        size_t k = 0;
+        for (size_t p = 0; p < r->system->parameters; p++) give(&given, r->system->parameter[p].value, "%s", r->system->parameter[p].name);
+        for (size_t s = 0; s < o->n; s++) in[k] = o->x[s], at[k++] = 0.7 + 0.2 * (double)s;
+        for (size_t s = 0; s < o->r; s++) in[k] = o->w[s], at[k++] = 0.3 - 0.5 * (double)s;
+        for (size_t s = 0; s < o->n; s++) give(&given, at[s], "%s", cJSON_GetArrayItem(oracle_get(stage, "shape"), (int)s)->valuestring);
+        for (size_t s = 0; s < o->r; s++) give(&given, at[o->n + s], "%s", cJSON_GetArrayItem(oracle_get(stage, "velocities"), (int)s)->valuestring);
+        nh_tape *tape = nh_tape_create(r->kinetic->dag, k, in, o->r, o->F, r->system->parameters, r->kinetic->model->parameter, r->kinetic->model->parameter_value);
+        nh_tape_work *work = nh_tape_work_create(tape);
+        nh_tape_eval(tape, work, at, F);
+        cr_assert_eq((size_t)cJSON_GetArraySize(oracle_get(stage, "equations")), o->r);
+        for (size_t s = 0; s < o->r; s++) {
+            double got = value_of(&given, oracle_get(cJSON_GetArrayItem(oracle_get(stage, "equations"), (int)s), "rate"));
+            cr_expect_float_eq(got, F[s], 1e-10 * (1 + fabs(F[s])), "%s: rate %zu is %g, not %g", path, s, got, F[s]);
+        }
+        nh_tape_work_free(work);
+        nh_tape_free(tape);
+        nh_dag_free(given.dag);
+        cJSON_Delete(json);
         nh_reduction_free(r);
     }
 }

@@ -9,6 +9,7 @@
 #include "motion/dynamics.h"
 #include "reduction/chain.h"
 #include "reduction/group.h"
+#include "reduction/hamilton.h"
 #include "reduction/lagrange_poincare.h"
 #include "reduction/linear.h"
 #include "reduction/measure_conditions.h"
@@ -67,7 +68,7 @@ typedef struct {
 
 /* One stage, written on a slice through the initial state; `shown` is the same stage on the slice y = 0, where that is
  * regular. */
-typedef struct {
+typedef struct nh_reduction_stage {
     nh_stage_kind kind;
     char *group; /* name of the group that is divided out */
     bool local;  /* a generator of it is many-valued on an angle */
@@ -112,6 +113,10 @@ typedef struct {
     const nh_reduction_theory *theory; /* NULL: not requested */
     nh_reduction_motion motion;
     char note[256];
+    /* the same with names of their own for shape coordinates that the group moves, to be printed and exported, with
+     * Hamilton's form; NULL: it moves none */
+    const struct nh_reduction_stage *named;
+    const nh_hamilton *hamilton; /* of such a stage; NULL: none, or not computed */
 } nh_reduction_stage;
 
 struct nh_reduction {

@@ -24,6 +24,8 @@ static nh_ex shortened(const nh_reduction *r, nh_ex e)
     return nh_node_count(r->kinetic->dag, e) < largest ? nh_simplify(r->kinetic->dag, e) : e;
 }
 
+const nh_reduction_stage *nh_reduction_named(const nh_reduction_stage *s) { return s->named ? s->named : s; }
+
 size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s, nh_reduction_equation **out)
 {
     const nh_reduced *o = s->shown;
@@ -111,7 +113,7 @@ void nh_reduction_latex(const nh_reduction *r, nh_text *out)
     for (size_t i = 0; i < r->stages; i++) {
         put_stage_name(r, i, "\n% ", out);
         nh_text_add(out, "\n");
-        put_stage_latex(r, &r->stage[i], out);
+        put_stage_latex(r, nh_reduction_named(&r->stage[i]), out);
     }
 }
 

@@ -17,6 +17,8 @@ void nh_reduction_csv(const nh_reduction *reduction, nh_text *out);
 /* The reduced equations of every stage as LaTeX: a block of equations each, for another document. */
 void nh_reduction_latex(const nh_reduction *reduction, nh_text *out);
 
+/* The stage as it is printed, where shape coordinates that its group moves have names of their own. */
+const nh_reduction_stage *nh_reduction_named(const nh_reduction_stage *stage);
 /* The reduced equations of a stage: M_ij, x', p', zeta as pairs of a name and an expression; n pairs in the kinetic's
  * arena.  Expressions are simplified where that is quick. */
 typedef struct {

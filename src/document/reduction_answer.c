@@ -107,7 +107,7 @@ static void stages(const nh_reduction *r, nh_text *out)
 {
     nh_text_add(out, "\n");
     for (size_t i = 0; i < r->stages; i++) {
-        const nh_reduction_stage *s = &r->stage[i];
+        const nh_reduction_stage *s = nh_reduction_named(&r->stage[i]);
         nh_text words;
         nh_text_init(&words);
         nh_text_addf(&words, "%s: divide by %s. Left: ", nh_reduction_stage_title(r, i), s->group);

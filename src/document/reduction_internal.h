@@ -21,8 +21,6 @@ void nh_reduction_full_json(const nh_reduction *reduction, nh_json *to);
 
 void nh_reduction_write_answer(const nh_reduction *reduction, bool colour, nh_text *out);
 
-/* Does the group move shape coordinate i of the slice? */
-bool nh_reduction_moved(const nh_slice *slice, size_t i);
 /* How many functions of the positions the constraints alone keep constant; 0 where this is not known. */
 size_t nh_reduction_leaves(const nh_reduction *reduction);
 /* "constant by the constraints alone, .." after these functions: the growth vector. */

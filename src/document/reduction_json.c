@@ -327,17 +327,18 @@ static void put_slice(nh_json *to, const nh_reduction *r, const nh_reduction_sta
     nh_json *y = nh_json_put_object(to, "slice"), *list = nh_json_put_array(to, "moved");
     for (size_t a = 0; a < slice->d; a++) put_expression(y, slice->kinetic->name[slice->along[a]], d, slice->y[a]);
     for (size_t i = 0; i < slice->n; i++)
-        if (nh_reduction_moved(slice, i)) nh_json_add_text(list, nh_name_of(d, slice->x[i]));
+        if (nh_slice_moves(slice, i)) nh_json_add_text(list, nh_name_of(d, slice->x[i]));
 }
 
-static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction_stage *s)
+static void put_stage(nh_json *stages, const nh_reduction *r, size_t number)
 {
+    const nh_reduction_stage *s = nh_reduction_named(&r->stage[number]);
     nh_json *to = nh_json_add_object(stages), *list = nh_json_put_array(to, "shape");
     nh_dag *d = r->kinetic->dag;
     nh_json_put_text(to, "kind", nh_stage_kind_name(s->kind));
     nh_json_put_text(to, "group", s->group);
     nh_json_put_bool(to, "local", s->local);
-    nh_json_put_bool(to, "alternative", nh_reduction_instead(r, (size_t)(s - r->stage)));
+    nh_json_put_bool(to, "alternative", nh_reduction_instead(r, number));
     put_fields(to, s->action);
     for (size_t i = 0; i < s->shown->n; i++) nh_json_add_text(list, nh_name_of(d, s->shown->x[i]));
     put_slice(to, r, s);
@@ -468,7 +469,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
         nh_json_put_text(full, "formulation", r->full_formulation);
     }
     stages = nh_json_put_array(root, "stages");
-    for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
+    for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, i);
     nh_reduction_full_json(r, root);
     put_momenta(root, r);
     nh_reduction_growth_json(r, root);

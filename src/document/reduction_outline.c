@@ -225,13 +225,15 @@ static void slice(nh_pen *p, const nh_reduction *r, const nh_slice *s)
         nh_pen_say(p, " = %s", value);
         nh_free(value);
     }
-    size_t moved = 0;
-    for (size_t i = 0; i < s->n; i++) {
-        if (!nh_reduction_moved(s, i)) continue;
-        nh_pen_say(p, moved++ ? ", " : "; the group moves ");
-        nh_pen_name(p, nh_name_of(r->kinetic->dag, s->x[i]));
+    for (int own = 1; own >= 0; own--) {
+        size_t moved = 0;
+        for (size_t i = 0; i < s->n; i++) {
+            if (!nh_slice_moves(s, i)) continue;
+            nh_pen_say(p, moved++ ? ", " : own ? "; " : ": values on it of ");
+            nh_pen_name(p, own ? nh_name_of(r->kinetic->dag, s->x[i]) : s->kinetic->name[s->shape[i]]);
+        }
+        if (moved && !own) nh_pen_say(p, ", which the group moves");
     }
-    nh_pen_say(p, "%s", moved ? ": in the equations these are the values where the orbit meets the slice" : "");
     nh_pen_close(p, NH_PEN_FACT);
 }
 
@@ -273,7 +275,7 @@ static void divided_out(nh_pen *p, const nh_reduction *r, const nh_reduction_sta
 
 static void stage(nh_pen *p, const nh_reduction *r, size_t number)
 {
-    const nh_reduction_stage *s = &r->stage[number];
+    const nh_reduction_stage *s = nh_reduction_named(&r->stage[number]);
     const char *kind = nh_reduction_stage_kind(s);
     nh_pen_card(
         p,

@@ -31,13 +31,6 @@ void nh_reduction_conditions(const nh_reduction_stage *s, nh_pen *p)
                     t->orbit, t->d - t->orbit);
 }
 
-bool nh_reduction_moved(const nh_slice *s, size_t i)
-{
-    for (size_t a = 0; a < s->d; a++)
-        if (!nh_is_zero(s->dag, s->action->generator[a].component[s->shape[i]])) return true;
-    return false;
-}
-
 /* ---- what the constraints integrate to ---- */
 
 size_t nh_reduction_leaves(const nh_reduction *r)

@@ -10,6 +10,7 @@
 
 const nh_hamilton *nh_reduction_hamilton(const nh_reduction *r, const nh_reduction_stage *s)
 {
+    if (s->hamilton) return s->hamilton;
     nh_hamilton *h = nh_arena_alloc(r->arena, sizeof *h);
     if (s->kind == NH_STAGE_CHAPLYGIN && nh_hamilton_of_first(h, r->arena, s->chaplygin)) return h;
     if (s->kind == NH_STAGE_SECOND && nh_hamilton_of_second(h, r->arena, s->second)) return h;
