@@ -3,6 +3,7 @@
 #include "oracle.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/linalg.h"
 #include "commands/reduce.h"
@@ -779,6 +780,63 @@ Test(reduce_papers, moved_coordinates_have_names_of_their_own)
         nh_tape_work_free(work);
         nh_tape_free(tape);
         nh_dag_free(given.dag);
+        cJSON_Delete(json);
+        nh_reduction_free(r);
+    }
+}
+
+/* ---- signs ---- */
+
+/* [X, Y]^s = X(Y^s) - Y(X^s), as `explain bracket` says: X(Y(f)) - Y(X(f)) of a coordinate f, by differences of the fields of the JSON. */
+Test(reduce_papers, brackets_have_the_sign_that_explain_gives)
+{
+    static const char *const systems[] = {"crane", "euler_disk", "rolling_ball"};
+    for (size_t i = 0; i < sizeof systems / sizeof *systems; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "systems/%s.yaml", systems[i]);
+        nh_reduction *r = reduce_path(path, NULL, false);
+        const nh_kinetic *k = r->kinetic;
+        cJSON *json = json_of(r);
+        const cJSON *fields = oracle_get(oracle_get(json, "group"), "generators"), *item, *c;
+        size_t m = k->m, seen = 0;
+        double zero[16] = {0}, at[16];
+        const double h = 1e-4, *q = k->place;
+        size_t d = r->all->action.d;
+        for (size_t a = 0; a < d; a++)
+            for (size_t b = a + 1; b < d; b++) {
+                double want[16] = {0}, got[16] = {0}, size = 0;
+                for (int sign = -1; sign <= 1; sign += 2)
+                    for (size_t which = 0; which < 2; which++) { /* along X the field Y, along Y the field X, less */
+                        size_t along = which ? b : a, of = which ? a : b;
+                        names here = names_at(r, q, zero);
+                        for (size_t s = 0; s < m; s++) {
+                            const cJSON *e = cJSON_GetObjectItem(cJSON_GetArrayItem(fields, (int)along), k->name[s]);
+                            at[s] = q[s] + sign * h * (e ? value_of(&here, e) : 0);
+                        }
+                        names there = names_at(r, at, zero);
+                        for (size_t s = 0; s < m; s++) {
+                            const cJSON *e = cJSON_GetObjectItem(cJSON_GetArrayItem(fields, (int)of), k->name[s]);
+                            want[s] += (which ? -1 : 1) * sign * (e ? value_of(&there, e) : 0) / (2 * h);
+                        }
+                        nh_dag_free(here.dag), nh_dag_free(there.dag);
+                    }
+                cJSON_ArrayForEach(item, oracle_get(oracle_get(json, "group"), "brackets"))
+                {
+                    const cJSON *pair = oracle_get(item, "of");
+                    if (cJSON_GetArrayItem(pair, 0)->valueint != (int)a + 1 || cJSON_GetArrayItem(pair, 1)->valueint != (int)b + 1) continue;
+                    names here = names_at(r, q, zero);
+                    cJSON_ArrayForEach(c, oracle_get(item, "is"))
+                        for (size_t s = 0; s < m; s++) {
+                            const cJSON *e = cJSON_GetObjectItem(cJSON_GetArrayItem(fields, atoi(c->string) - 1), k->name[s]);
+                            got[s] += value_of(&here, c) * (e ? value_of(&here, e) : 0);
+                        }
+                    nh_dag_free(here.dag);
+                    seen++;
+                }
+                for (size_t s = 0; s < m; s++) size = fmax(size, fabs(want[s]));
+                for (size_t s = 0; s < m; s++) cr_expect_float_eq(got[s], want[s], 1e-5 * (1 + size), "%s: [e_%zu,e_%zu] along %s is %g, not %g", path, a + 1, b + 1, k->name[s], got[s], want[s]);
+            }
+        cr_expect(seen >= 2, "%s: %zu brackets", path, seen);
         cJSON_Delete(json);
         nh_reduction_free(r);
     }
