@@ -109,7 +109,7 @@ Test(reduced_motion, every_stage_has_its_figures)
     write_here(&p, "coin.yaml", coin);
     finished f = coin_run(&p, "--quiet --html page.html --tex page.tex", 0);
     char *page = read_here(&p, "page.html"), *tex = read_here(&p, "page.tex");
-    size_t stages = times(page, "<h3>Stage ");
+    size_t stages = times(page, "<h3>Stage ") + times(page, "<h3>In one step, stage ") + times(page, "<h3>Instead of one step, stage ");
     cr_assert_gt(stages, 1u);
     cr_expect_eq(times(page, "Its motion beside the full one"), stages);
     cr_expect_geq(times(page, "<figure>"), 2 * stages);

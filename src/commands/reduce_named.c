@@ -1,8 +1,8 @@
 /* reduce_named: the stages as they are printed and exported.
  *
  * A shape coordinate x that the group moves is a coordinate on the slice: along a motion it is not the file's x, but
- * that of the place where the orbit meets the slice.  In what is printed it is called x_s, its velocity x_s', its momentum
- * p_x_s; for computations the stages keep the symbols of the coordinates. */
+ * that of the place where the orbit meets the slice.  In what is printed it is called x_s, its velocity x_s', its
+ * momentum p_x_s; for computations the stages keep the symbols of the coordinates. */
 #include <string.h>
 
 #include "commands/reduce_internal.h"

@@ -110,7 +110,8 @@ void nh_reduction_latex(const nh_reduction *r, nh_text *out)
     nh_escape_line(r->system->title, out);
     nh_text_addf(out, ": reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n%s",
                  nh_tex_formula_macro);
-    for (size_t i = 0; i < r->stages; i++) {
+    for (size_t k = 0; k < r->stages; k++) {
+        size_t i = nh_reduction_order(r, k);
         put_stage_name(r, i, "\n% ", out);
         nh_text_add(out, "\n");
         put_stage_latex(r, nh_reduction_named(&r->stage[i]), out);
@@ -138,9 +139,25 @@ bool nh_reduction_instead(const nh_reduction *r, size_t i)
     return i > 0 && kind != NH_STAGE_CHAPLYGIN && (kind != NH_STAGE_SECOND || nh_reduction_on_levels(&r->stage[i]));
 }
 
+/* Is the last stage the division by the whole group, and its shape a point?  Then it comes first. */
+static bool point_first(const nh_reduction *r)
+{
+    size_t last = r->stages - 1;
+    return r->stages > 1 && r->stage[0].kind == NH_STAGE_CHAPLYGIN && nh_reduction_instead(r, last) &&
+           !r->stage[last].shown->n;
+}
+
+size_t nh_reduction_order(const nh_reduction *r, size_t k)
+{
+    if (!point_first(r)) return k;
+    return k ? k - 1 : r->stages - 1;
+}
+
 const char *nh_reduction_stage_title(const nh_reduction *r, size_t i)
 {
     nh_arena *arena = r->kinetic->arena;
+    if (point_first(r) && i == r->stages - 1) return nh_arena_printf(arena, "In one step, stage %zu", i + 1);
+    if (point_first(r) && i == 0) return "Instead of one step, stage 1";
     if (!nh_reduction_instead(r, i)) return nh_arena_printf(arena, "Stage %zu", i + 1);
     if (nh_reduction_on_levels(&r->stage[i]))
         return nh_arena_printf(arena, "Stage %zu, instead of stage %zu", i + 1, i);

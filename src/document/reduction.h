@@ -34,6 +34,8 @@ size_t nh_reduction_shown(const nh_reduction *reduction, const nh_reduction_stag
                           nh_ex **value);
 const char *nh_reduction_letters(const nh_reduction *reduction, const nh_reduction_stage *stage);
 
+/* The stage that is printed k-th: the division by the whole group first where its shape is a point. */
+size_t nh_reduction_order(const nh_reduction *reduction, size_t k);
 /* "Stage 3, in one step instead of stages 1 and 2": the first two build on each other, the division by the whole group
  * is an alternative. */
 const char *nh_reduction_stage_title(const nh_reduction *reduction, size_t stage);

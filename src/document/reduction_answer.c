@@ -60,17 +60,18 @@ static void put_sizes(const nh_reduction *r, nh_text *out)
     size_t f = r->kinetic->f;
     nh_text_addf(out, "%zu coordinate%s", r->kinetic->m, r->kinetic->m == 1 ? "" : "s");
     if (f) nh_text_addf(out, " with %zu constraint%s", f, f == 1 ? "" : "s");
-    for (size_t i = 0; i < r->stages; i++) {
+    for (size_t k = 0; k < r->stages; k++) {
+        size_t i = nh_reduction_order(r, k);
         const nh_reduction_stage *s = &r->stage[i];
-        bool other = nh_reduction_instead(r, i);
+        bool other = nh_reduction_instead(r, i), first = i > 0 && k == 0;
         nh_text_addf(out, "%s %zu%s",
-                     !i      ? " become"
-                     : other ? "; or"
-                             : ", then",
+                     !k                            ? " become"
+                     : other || (i == 0 && k == 1) ? "; or"
+                                                   : ", then",
                      s->shown->n,
-                     !other                         ? ""
-                     : s->kind == NH_STAGE_POINCARE ? " in one step"
-                                                    : " in another way");
+                     !other                                  ? ""
+                     : first || s->kind == NH_STAGE_POINCARE ? " in one step"
+                                                             : " in another way");
     }
     nh_text_add(out, ". ");
 }
@@ -106,7 +107,8 @@ static void group(const nh_reduction *r, bool colour, nh_text *out)
 static void stages(const nh_reduction *r, nh_text *out)
 {
     nh_text_add(out, "\n");
-    for (size_t i = 0; i < r->stages; i++) {
+    for (size_t k = 0; k < r->stages; k++) {
+        size_t i = nh_reduction_order(r, k);
         const nh_reduction_stage *s = nh_reduction_named(&r->stage[i]);
         nh_text words;
         nh_text_init(&words);

@@ -59,8 +59,8 @@ static nh_json *pair_of(nh_json *list, size_t a, size_t b)
     return item;
 }
 
-/* The brackets of the fields that are not zero, [e_a, e_b] = -C_ab^k e_k, with the parameters: {"of": [1, 4], "is": {"2":
- * "(a + b)/a"}}; null for a bracket that is no combination of the generators. */
+/* The brackets of the fields that are not zero, [e_a, e_b] = -C_ab^k e_k, with the parameters: {"of": [1, 4], "is":
+ * {"2": "(a + b)/a"}}; null for a bracket that is no combination of the generators. */
 static void put_brackets(nh_json *to, const nh_action *g)
 {
     nh_json *list = nh_json_put_array(to, "brackets");

@@ -356,11 +356,17 @@ static void reduces(nh_pen *p, const nh_reduction *r)
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     nh_pen_say(p, "%zu coordinate%s, %zu constraint%s", r->kinetic->m, r->kinetic->m == 1 ? "" : "s", r->kinetic->f,
                r->kinetic->f == 1 ? "" : "s");
-    for (size_t i = 0; i < r->stages; i++) {
+    for (size_t k = 0; k < r->stages; k++) {
+        size_t i = nh_reduction_order(r, k), n = r->stage[i].shown->n;
         if (nh_reduction_on_levels(&r->stage[i])) continue;
-        size_t n = r->stage[i].shown->n;
-        if (any) nh_pen_say(p, nh_reduction_instead(r, i) ? "; in one step to %zu" : ", then to %zu", n);
-        else nh_pen_say(p, "; reduced to %zu shape coordinate%s", n, n == 1 ? "" : "s");
+        bool point = k == 0 && i > 0, other = nh_reduction_instead(r, i);
+        if (any)
+            nh_pen_say(p,
+                       other    ? "; in one step to %zu"
+                       : i == 0 ? "; instead of one step to %zu"
+                                : ", then to %zu",
+                       n);
+        else nh_pen_say(p, "; reduced %sto %zu shape coordinate%s", point ? "in one step " : "", n, n == 1 ? "" : "s");
         any = true;
     }
     nh_pen_say(p, ".");
@@ -405,7 +411,7 @@ void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style s
     nh_pen_section(p, "stages", "Reduced equations");
     if (!r->stages) nh_pen_words(p, "No reduction was possible.");
     full_motion(p, r);
-    for (size_t i = 0; i < r->stages; i++) stage(p, r, i);
+    for (size_t i = 0; i < r->stages; i++) stage(p, r, nh_reduction_order(r, i));
     unused(p, r);
     momenta(p, r);
     nh_pen_system(p, NULL, NULL);
