@@ -135,6 +135,26 @@ Test(reduce_papers, a_ball_joint_is_divided_out_in_a_second_stage)
     }
 }
 
+/* Euler's disk as Cendra and Diaz have it (49): S^1 x R^2 > R^2 by one option; without it R^2 is below SE(2) x SO(2), too. */
+Test(reduce_papers, the_disk_is_divided_along_the_chain_of_the_paper)
+{
+    for (int given = 0; given < 2; given++) {
+        nh_reduction *r = reduce_path("systems/euler_disk.yaml", given ? "1, 2, 3" : NULL, false);
+        cr_assert_eq(r->stages, 2);
+        const nh_reduction_stage *s = &r->stage[1];
+        cr_assert(s->kind == NH_STAGE_POINCARE && s->by_stages);
+        cr_expect_eq(s->action->d, given ? 3 : 4);
+        cr_assert_eq(s->chain->blocks, 2);
+        cr_expect_eq(s->chain->size[1], 2);
+        for (size_t i = 0; i < 2; i++) { /* d/dx1, d/dx2 */
+            const nh_generator *e = &s->action->generator[s->chain->order[s->chain->start[1] + i]];
+            for (size_t q = 0; q < 3; q++) cr_expect(nh_is_zero(r->kinetic->dag, e->component[q]));
+        }
+        cr_expect(s->poincare.stages_vertical < 1e-12 && s->poincare.stages_horizontal < 1e-12 && s->poincare.bracket < 1e-12);
+        nh_reduction_free(r);
+    }
+}
+
 /* ---- accelerations from the whole system, by numbers ---- */
 
 /* v such that omega v = 0: random, less its part along the constraints' rows in the metric of unit matrices. */
