@@ -17,6 +17,7 @@ typedef struct {
     size_t first;              /* of a second stage: the Chaplygin stage below it; else SIZE_MAX */
     size_t n, d;               /* of the stage: shape, group */
     size_t x[most], y[most];   /* coordinates of the system: shape, and those that the slice fixes */
+    const char *shape[most];   /* the names of x in the stage: q_s where the group moves q */
     double q[most];            /* a place of the slice */
     double c[most * most * most]; /* [e_a, e_b] = -c_ab^k e_k as fields */
     const char *name;
@@ -26,11 +27,15 @@ static inline size_t coordinate(const object *o, const char *name)
 {
     for (size_t i = 0; i < o->m; i++)
         if (!strcmp(o->s.system->coordinate[i].name, name)) return i;
+    for (size_t i = 0; i < o->m; i++) {
+        size_t length = strlen(o->s.system->coordinate[i].name);
+        if (!strncmp(o->s.system->coordinate[i].name, name, length) && !strcmp(name + length, "_s")) return i;
+    }
     cr_assert_fail("%s: there is no %s", o->name, name);
     return 0;
 }
 
-static const char *name_of(const object *o, size_t i) { return o->s.system->coordinate[o->x[i]].name; }
+static const char *name_of(const object *o, size_t i) { return o->shape[i]; }
 
 static inline double evaluated(object *o, nh_ex e, const double *q, const double *v)
 {

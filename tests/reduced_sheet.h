@@ -22,7 +22,7 @@ typedef struct {
     cJSON *root;
     const cJSON *stage, *geometry;
     size_t names;
-    nh_named name[40];      /* velocities of the group and of S: symbols of their own */
+    nh_named name[80];      /* velocities of the group and of S: symbols of their own */
     size_t symbols;
     nh_ex symbol[80];
     double value[80];
@@ -59,6 +59,13 @@ static inline reduced_sheet reduced_from(const char *file, const char *text, siz
     for (size_t i = 0; i < s.system->coordinates; i++) {
         s.symbol[s.symbols++] = s.system->coordinate[i].q;
         s.symbol[s.symbols++] = s.system->coordinate[i].v;
+        /* the value on a slice of a coordinate that the group moves */
+        char slice[2][80];
+        snprintf(slice[0], sizeof slice[0], "%s_s", s.system->coordinate[i].name);
+        snprintf(slice[1], sizeof slice[1], "%s_s'", s.system->coordinate[i].name);
+        for (size_t k = 0; k < 2; k++)
+            s.name[s.names++] = (nh_named){.name = nh_name_of(s.system->dag, nh_symbol(s.system->dag, slice[k])),
+                                           .value = k ? s.system->coordinate[i].v : s.system->coordinate[i].q};
     }
     return s;
 }

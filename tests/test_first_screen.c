@@ -393,7 +393,7 @@ Test(first_screen, of_a_reduction)
     finished f = run_expecting(&p, "reduce crane --until 1", 0);
     check_screen("reduce crane", f.out);
     one_line(f.out);
-    cr_expect(strstr(f.out, "SE(2) x SO(2)^3") && strstr(f.out, "Left: psi1, phi1, psi3, phi2") && strstr(f.out, "no others"), "%s", f.out);
+    cr_expect(strstr(f.out, "SE(2) x SO(2)^3") && strstr(f.out, "Left: psi1, phi1, psi2, phi2") && strstr(f.out, "no others"), "%s", f.out);
     cr_expect(strstr(f.out, "Put together again"), "%s", f.out);
     finished_clear(&f);
     place_clear(&p);

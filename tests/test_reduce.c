@@ -94,8 +94,8 @@ Test(reduce, crane, PLAIN_ONLY)
             cr_expect(r->stage[s].agreement <= 1e-8);
         }
         cr_expect(r->stage[2].by_stages && r->stage[2].poincare.stages_vertical < 1e-12 && r->stage[2].poincare.stages_horizontal < 1e-12);
-        cr_expect_eq(r->momenta.count, 1);
-        cr_expect(r->momenta.momentum[0].horizontal);
+        cr_expect_eq(r->momenta.count, 2); /* of phi1, and of the front axle with its wheels */
+        cr_expect(r->momenta.momentum[0].horizontal && r->momenta.momentum[1].of_lagrangian);
         cr_expect_eq(r->all->jets->of_metric, 22);
         nh_reduction_free(r);
     }

@@ -115,8 +115,39 @@ Test(reduce_statements, stages_that_do_not_follow_each_other, PLAIN_ONLY)
     SAYS(nh_text_string(&code), "% Stage 3, in one step instead of stages 1 and 2 (");
     nh_text_clear(&code);
     done(&t);
-    t = tell_file("systems/sleigh.yaml", 0, NULL);
+    t = tell_file("systems/euler_disk.yaml", 0, NULL);
     SAYS(TEXT(t), "\nStage 2, in one step instead of stage 1: ");
+    done(&t);
+}
+
+/* Where nothing is left of the shape in one step this is the first thing to read; the stages keep their numbers, which the other files have. */
+Test(reduce_statements, one_step_to_a_point_comes_first)
+{
+    static const struct {
+        const char *system, *whole, *first, *sizes;
+    } cases[] = {{"sleigh", "\nIn one step, stage 2", "\nInstead of one step, stage 1", "reduced in one step to 0 shape coordinates; instead of one step to 2."},
+                 {"vertical_disk", "\nIn one step, stage 3", "\nInstead of one step, stage 1", "reduced in one step to 0 shape coordinates; instead of one step to 2, then to 0."}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char path[100];
+        snprintf(path, sizeof path, "systems/%s.yaml", cases[i].system);
+        told t = tell_file(path, 0, NULL);
+        const char *whole = strstr(TEXT(t), cases[i].whole + 1), *first = strstr(TEXT(t), cases[i].first + 1);
+        cr_expect(whole && first && whole < first, "%s", TEXT(t));
+        SAYS(PAGE(t), cases[i].sizes);
+        size_t last = t.r->stages - 1;
+        cr_expect(t.r->stage[0].kind == NH_STAGE_CHAPLYGIN && !t.r->stage[last].shown->n);
+        cr_expect_eq(nh_reduction_order(t.r, 0), last);
+        cr_expect_eq(nh_reduction_order(t.r, 1), 0);
+        nh_text code;
+        nh_text_init(&code);
+        nh_reduction_latex(t.r, &code);
+        const char *a = strstr(nh_text_string(&code), cases[i].whole + 1), *b = strstr(nh_text_string(&code), cases[i].first + 1);
+        cr_expect(a && b && a < b, "%s", nh_text_string(&code));
+        nh_text_clear(&code);
+        done(&t);
+    }
+    told t = tell_file("systems/crane.yaml", 0, NULL);
+    cr_expect_eq(nh_reduction_order(t.r, 0), 0); /* its shape is no point */
     done(&t);
 }
 

@@ -608,7 +608,7 @@ static void open_stage(object *o, const char *text, const char *line, size_t sta
     o->m = o->s.system->coordinates;
     o->f = o->s.system->constraints;
     for (size_t i = 0; i < o->m; i++) o->q[i] = 0.9 - 0.23 * (double)i + 0.06 * (double)(i * i);
-    cJSON_ArrayForEach(item, oracle_get(o->s.stage, "shape")) o->x[o->n++] = coordinate(o, item->valuestring);
+    cJSON_ArrayForEach(item, oracle_get(o->s.stage, "shape")) o->shape[o->n] = item->valuestring, o->x[o->n++] = coordinate(o, item->valuestring);
     for (size_t s = 0; s <= stage; s++) { /* a second stage lies on the first one's slice, too */
         const cJSON *other = cJSON_GetArrayItem(oracle_get(o->s.root, "stages"), (int)s);
         bool below = s == 0 && stage > 0 && !strcmp(text_of(other, "kind"), "chaplygin") && !strcmp(text_of(o->s.stage, "kind"), "second");

@@ -34,7 +34,7 @@ static nh_ex *take(const scope *s, size_t n) { return nh_arena_alloc(s->x->arena
 
 static scope scope_of(nh_export *x, const nh_reduction *r, size_t i)
 {
-    const nh_reduction_stage *stage = &r->stage[i];
+    const nh_reduction_stage *stage = r->stage[i].named ? r->stage[i].named : &r->stage[i];
     const nh_reduced *o = stage->shown;
     scope s = {.x = x,
                .r = r,

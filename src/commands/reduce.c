@@ -363,7 +363,9 @@ nh_reduction *nh_reduction_create(const nh_request *q, nh_error *error)
     if (divide && good && !nh_interrupted() && !nh_reduction_late(r, "the conserved momenta"))
         good = some && !r->strict ? nh_momenta_find(&r->momenta, &r->group->action, &r->options, error) : conserved(r);
     if (good && nh_momenta_unproved(&r->momenta, &r->group->action)) confirm(r);
+    if (good) nh_reduction_integrable(r);
     if (good && q->equations) nh_reduction_write_out(r);
+    if (good) nh_reduction_name_moved(r);
     if (good) nh_momenta_mark(&r->momenta, r->kinetic);
     if (nh_interrupted()) {
         char words[80];

@@ -5,9 +5,11 @@
 #include <time.h>
 
 #include "commands/request.h"
+#include "geometry/growth.h"
 #include "motion/dynamics.h"
 #include "reduction/chain.h"
 #include "reduction/group.h"
+#include "reduction/hamilton.h"
 #include "reduction/lagrange_poincare.h"
 #include "reduction/linear.h"
 #include "reduction/measure_conditions.h"
@@ -66,7 +68,7 @@ typedef struct {
 
 /* One stage, written on a slice through the initial state; `shown` is the same stage on the slice y = 0, where that is
  * regular. */
-typedef struct {
+typedef struct nh_reduction_stage {
     nh_stage_kind kind;
     char *group; /* name of the group that is divided out */
     bool local;  /* a generator of it is many-valued on an angle */
@@ -111,6 +113,10 @@ typedef struct {
     const nh_reduction_theory *theory; /* NULL: not requested */
     nh_reduction_motion motion;
     char note[256];
+    /* the same with names of their own for shape coordinates that the group moves, to be printed and exported, with
+     * Hamilton's form; NULL: it moves none */
+    const struct nh_reduction_stage *named;
+    const nh_hamilton *hamilton; /* of such a stage; NULL: none, or not computed */
 } nh_reduction_stage;
 
 struct nh_reduction {
@@ -153,6 +159,11 @@ struct nh_reduction {
     size_t unused_count;
     nh_reduction_unused unused[24];
     nh_momenta momenta;
+    /* of linear constraints: how D grows by brackets (length 0: not computed), and sums of coordinates that it keeps
+     * constant: up to m less the last rank */
+    nh_growth growth;
+    size_t leaf_count;
+    nh_ex *leaf;
     /* displacements of joints that leave the kinetic energy invariant; NULL unless the system is given by bodies */
     nh_chain_symmetries *joints;
     nh_generator *of_joint; /* joints->fields: these fields, with what they leave invariant */

@@ -1,6 +1,7 @@
 /* reduce_internal: shared by reduce.c (the question), reduce_full.c (the full motion), reduce_stages.c (the stages),
  * reduce_compare.c (their motions), reduce_whole.c (the whole group at once) and reduce_quotient.c (other systems),
- * reduce_unused.c (what is not used, and why). */
+ * reduce_unused.c (what is not used, and why), reduce_integrable.c (what else is constant), reduce_named.c
+ * (names on slices). */
 #ifndef NH_REDUCE_INTERNAL_H
 #define NH_REDUCE_INTERNAL_H
 
@@ -100,8 +101,14 @@ void nh_reduction_no_chaplygin(nh_reduction *reduction);
 void nh_reduction_not_in_second(nh_reduction *reduction, const nh_chaplygin *first, const bool *used,
                                 const bool *normalises);
 
+/* What the constraints alone keep constant, and momenta of symmetries of L only along which the reaction vanishes. */
+void nh_reduction_integrable(nh_reduction *reduction);
+
 /* Computes the objects of the stages that --equations shows. */
 void nh_reduction_write_out(nh_reduction *reduction);
+
+/* The stages as they are printed, where a group moves shape coordinates. */
+void nh_reduction_name_moved(nh_reduction *reduction);
 
 /* Is the deadline past?  Then adds a warning that names the step that is skipped. */
 bool nh_reduction_late(nh_reduction *reduction, const char *what);

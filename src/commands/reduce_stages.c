@@ -309,23 +309,23 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
 {
     nh_reduction *r = b->r;
     const nh_action *g = &r->group->action;
-    size_t f = r->kinetic->f, m = r->kinetic->m, *index = nh_alloc_array(g->d + f + 1, sizeof *index);
+    size_t f = r->kinetic->f, m = r->kinetic->m;
+    double *t = nh_alloc_array(g->d * (g->d + f) + 1, sizeof *t), *rest = t + g->d * f;
     const nh_chaplygin *first = NULL;
     double *q = nh_alloc_array(2 * m + NH_REACH_MOST * f + 1, sizeof *q), *v = q + m;
     bool good = true;
     memcpy(q, r->initial.q, m * sizeof *q);
     memcpy(v, r->initial.v, m * sizeof *v);
-    if (nh_group_chaplygin(r->group, &r->options, index)) {
-        double *t = nh_alloc_array(g->d * (g->d + f) + 1, sizeof *t), *rest = t + g->d * f;
-        for (size_t i = 0; i < f; i++) t[index[i] + i * g->d] = 1;
+    if (nh_group_chaplygin(r->group, &r->options, t)) {
         nh_action_sub(&r->action[0], g, f, t, &r->options);
         good = chaplygin_stage(b, &r->action[0], &first, error);
         const nh_chaplygin *shown = good ? r->stage[0].chaplygin : NULL;
         if (good && shown != first && nh_slice_reach(shown->slice, q, v, v + m) < SIZE_MAX) first = shown;
-        size_t n = good && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser(r->group, f, index, rest) : 0;
+        size_t n =
+            good && !nh_reduction_late(r, "a second stage") ? nh_group_normaliser_of(&g->algebra, f, t, rest) : 0;
         nh_ex *field = nh_alloc_array(n * m + 1, sizeof *field);
         bool *used = nh_alloc_array(2 * g->d + 1, sizeof *used), *normalises = used + g->d;
-        for (size_t i = 0; i < f; i++) used[index[i]] = true;
+        for (size_t i = 0; i < f * g->d; i++) used[i % g->d] |= t[i] != 0;
         for (size_t i = 0; i < n * g->d; i++) normalises[i % g->d] |= rest[i] != 0;
         size_t d = n ? second_fields(r, first, n, rest, field, used) : 0;
         nh_error trouble = {0};
@@ -339,9 +339,8 @@ static bool first_and_second(nh_reduction_bench *b, nh_error *error)
         if (d && !nh_interrupted() && !second_stage(b, first, shown, q, v, d, field, &trouble))
             nh_reduction_warn(r, "stage 1 is not reduced further: %s", trouble.what);
         nh_free(field);
-        nh_free(t);
     } else if (g->d) nh_reduction_no_chaplygin(r);
-    nh_free(index);
+    nh_free(t);
     nh_free(q);
     return good;
 }

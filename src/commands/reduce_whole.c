@@ -102,6 +102,27 @@ static bool inner_product(nh_reduction *r, const nh_slice *slice, double *metric
            nh_fail(error, NH_USAGE, "--inner", "`%.200s` is not positive definite", r->inner_text);
 }
 
+/* g > n, n the group of the first stage where it is an ideal, as the papers have it: two blocks; 0: it is none. */
+static size_t chain_of_first(const nh_reduction *r, const nh_action *g, size_t *size, size_t *order)
+{
+    const nh_action *first = r->stages && r->stage[0].kind == NH_STAGE_CHAPLYGIN ? r->stage[0].action : NULL;
+    size_t d = g->d, n = 0, at = 0, most = first ? first->d : 0;
+    bool *in = nh_arena_alloc(r->arena, (d + 1) * sizeof *in), ideal = true;
+    for (size_t a = 0; a < d; a++)
+        for (size_t b = 0; b < most && !in[a]; b++)
+            in[a] = !memcmp(g->generator[a].component, first->generator[b].component,
+                            r->kinetic->m * sizeof *g->generator[a].component);
+    for (size_t a = 0; a < d; a++) n += in[a];
+    for (size_t i = 0; i < d * d * d; i++) ideal &= !in[i / d % d] || in[i % d] || g->algebra.c[i] == 0;
+    if (!n || n < most || n == d || !ideal) return 0;
+    for (int member = 0; member < 2; member++)
+        for (size_t a = 0; a < d; a++)
+            if (in[a] == member) order[at++] = a;
+    size[0] = d - n;
+    size[1] = n;
+    return 2;
+}
+
 /* The equations by stages. */
 static bool by_stages(nh_reduction *r, nh_reduction_stage *s, nh_error *error)
 {
@@ -109,7 +130,8 @@ static bool by_stages(nh_reduction *r, nh_reduction_stage *s, nh_error *error)
     size_t d = slice->d, *size = nh_alloc_array(2 * d + 2, sizeof *size), *order = size + d + 1;
     double *metric = nh_alloc_array(d * d + 1, sizeof *metric);
     size_t blocks = r->chain_text ? read_chain(r->chain_text, d, size, order, error)
-                                  : nh_ideals_find(&slice->action->algebra, size, order);
+                                  : chain_of_first(r, slice->action, size, order);
+    if (!blocks && !r->chain_text) blocks = nh_ideals_find(&slice->action->algebra, size, order);
     bool good = blocks > 0 && inner_product(r, slice, metric, error) &&
                 nh_ideals_init(&r->chain, &slice->action->algebra, blocks, size, order, metric, error);
     bool own = r->options.lifts > 0;

@@ -24,6 +24,8 @@ static nh_ex shortened(const nh_reduction *r, nh_ex e)
     return nh_node_count(r->kinetic->dag, e) < largest ? nh_simplify(r->kinetic->dag, e) : e;
 }
 
+const nh_reduction_stage *nh_reduction_named(const nh_reduction_stage *s) { return s->named ? s->named : s; }
+
 size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s, nh_reduction_equation **out)
 {
     const nh_reduced *o = s->shown;
@@ -46,7 +48,7 @@ size_t nh_reduction_equations(const nh_reduction *r, const nh_reduction_stage *s
         e[n++] = (nh_reduction_equation){nh_arena_printf(arena, "%s'", o->momentum[i]), shortened(r, o->F[i])};
     for (size_t a = 0; a < o->d; a++)
         e[n++] = (nh_reduction_equation){
-            nh_arena_printf(arena, "%s_%zu", s->kind == NH_STAGE_SECOND ? "eta" : "zeta", a + 1),
+            nh_kinetic_unused_name(r->kinetic, "%s_%zu", s->kind == NH_STAGE_SECOND ? "eta" : "zeta", a + 1),
             shortened(r, o->zeta[a])};
     *out = e;
     return n;
@@ -108,10 +110,11 @@ void nh_reduction_latex(const nh_reduction *r, nh_text *out)
     nh_escape_line(r->system->title, out);
     nh_text_addf(out, ": reduced equations of motion, written by nhsym " NH_VERSION "; for the package amsmath\n%s",
                  nh_tex_formula_macro);
-    for (size_t i = 0; i < r->stages; i++) {
+    for (size_t k = 0; k < r->stages; k++) {
+        size_t i = nh_reduction_order(r, k);
         put_stage_name(r, i, "\n% ", out);
         nh_text_add(out, "\n");
-        put_stage_latex(r, &r->stage[i], out);
+        put_stage_latex(r, nh_reduction_named(&r->stage[i]), out);
     }
 }
 
@@ -136,9 +139,25 @@ bool nh_reduction_instead(const nh_reduction *r, size_t i)
     return i > 0 && kind != NH_STAGE_CHAPLYGIN && (kind != NH_STAGE_SECOND || nh_reduction_on_levels(&r->stage[i]));
 }
 
+/* Is the last stage the division by the whole group, and its shape a point?  Then it comes first. */
+static bool point_first(const nh_reduction *r)
+{
+    size_t last = r->stages - 1;
+    return r->stages > 1 && r->stage[0].kind == NH_STAGE_CHAPLYGIN && nh_reduction_instead(r, last) &&
+           !r->stage[last].shown->n;
+}
+
+size_t nh_reduction_order(const nh_reduction *r, size_t k)
+{
+    if (!point_first(r)) return k;
+    return k ? k - 1 : r->stages - 1;
+}
+
 const char *nh_reduction_stage_title(const nh_reduction *r, size_t i)
 {
     nh_arena *arena = r->kinetic->arena;
+    if (point_first(r) && i == r->stages - 1) return nh_arena_printf(arena, "In one step, stage %zu", i + 1);
+    if (point_first(r) && i == 0) return "Instead of one step, stage 1";
     if (!nh_reduction_instead(r, i)) return nh_arena_printf(arena, "Stage %zu", i + 1);
     if (nh_reduction_on_levels(&r->stage[i]))
         return nh_arena_printf(arena, "Stage %zu, instead of stage %zu", i + 1, i);
@@ -191,9 +210,9 @@ const char *nh_reduction_letters(const nh_reduction *r, const nh_reduction_stage
                                s->shown->d ? p : "$p_{i}$: momenta of the shape", group);
     case NH_STAGE_SECOND:
         return nh_arena_printf(arena,
-                               "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ (v1, .. in text and "
+                               "%s$m_{a}$: momentum of the group, in the body frame, and $v_{a}$ (%s, .. in text and "
                                "code), the velocity %s; $eta_{a}$: %s",
-                               p,
+                               p, nh_name_of(r->kinetic->dag, s->shown->w[s->shown->n]),
                                shape ? "$eta_{a} + \\breve{A} <x'>$ that belongs to it by the mechanical connection"
                                      : "that belongs to it",
                                group);
@@ -241,6 +260,7 @@ size_t nh_reduction_linear_stage(const nh_reduction *r)
 const char *nh_reduction_momentum_kind(const nh_momentum *p)
 {
     if (p->moving) return "energy less the momentum of";
+    if (p->of_lagrangian) return "symmetry of the Lagrangian in the distribution: momentum of";
     return p->horizontal ? "horizontal symmetry: momentum of"
            : p->gauge    ? "gauge momentum of"
                          : "not horizontal, but conserved: momentum of";

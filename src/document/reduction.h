@@ -17,6 +17,8 @@ void nh_reduction_csv(const nh_reduction *reduction, nh_text *out);
 /* The reduced equations of every stage as LaTeX: a block of equations each, for another document. */
 void nh_reduction_latex(const nh_reduction *reduction, nh_text *out);
 
+/* The stage as it is printed, where shape coordinates that its group moves have names of their own. */
+const nh_reduction_stage *nh_reduction_named(const nh_reduction_stage *stage);
 /* The reduced equations of a stage: M_ij, x', p', zeta as pairs of a name and an expression; n pairs in the kinetic's
  * arena.  Expressions are simplified where that is quick. */
 typedef struct {
@@ -32,6 +34,8 @@ size_t nh_reduction_shown(const nh_reduction *reduction, const nh_reduction_stag
                           nh_ex **value);
 const char *nh_reduction_letters(const nh_reduction *reduction, const nh_reduction_stage *stage);
 
+/* The stage that is printed k-th: the division by the whole group first where its shape is a point. */
+size_t nh_reduction_order(const nh_reduction *reduction, size_t k);
 /* "Stage 3, in one step instead of stages 1 and 2": the first two build on each other, the division by the whole group
  * is an alternative. */
 const char *nh_reduction_stage_title(const nh_reduction *reduction, size_t stage);

@@ -60,17 +60,18 @@ static void put_sizes(const nh_reduction *r, nh_text *out)
     size_t f = r->kinetic->f;
     nh_text_addf(out, "%zu coordinate%s", r->kinetic->m, r->kinetic->m == 1 ? "" : "s");
     if (f) nh_text_addf(out, " with %zu constraint%s", f, f == 1 ? "" : "s");
-    for (size_t i = 0; i < r->stages; i++) {
+    for (size_t k = 0; k < r->stages; k++) {
+        size_t i = nh_reduction_order(r, k);
         const nh_reduction_stage *s = &r->stage[i];
-        bool other = nh_reduction_instead(r, i);
+        bool other = nh_reduction_instead(r, i), first = i > 0 && k == 0;
         nh_text_addf(out, "%s %zu%s",
-                     !i      ? " become"
-                     : other ? "; or"
-                             : ", then",
+                     !k                            ? " become"
+                     : other || (i == 0 && k == 1) ? "; or"
+                                                   : ", then",
                      s->shown->n,
-                     !other                         ? ""
-                     : s->kind == NH_STAGE_POINCARE ? " in one step"
-                                                    : " in another way");
+                     !other                                  ? ""
+                     : first || s->kind == NH_STAGE_POINCARE ? " in one step"
+                                                             : " in another way");
     }
     nh_text_add(out, ". ");
 }
@@ -106,8 +107,9 @@ static void group(const nh_reduction *r, bool colour, nh_text *out)
 static void stages(const nh_reduction *r, nh_text *out)
 {
     nh_text_add(out, "\n");
-    for (size_t i = 0; i < r->stages; i++) {
-        const nh_reduction_stage *s = &r->stage[i];
+    for (size_t k = 0; k < r->stages; k++) {
+        size_t i = nh_reduction_order(r, k);
+        const nh_reduction_stage *s = nh_reduction_named(&r->stage[i]);
         nh_text words;
         nh_text_init(&words);
         nh_text_addf(&words, "%s: divide by %s. Left: ", nh_reduction_stage_title(r, i), s->group);
@@ -135,11 +137,30 @@ static void momenta(const nh_reduction *r, bool colour, nh_text *out)
         nh_free(value);
         nh_text_add(&words, m->moving ? "energy less the momentum of " : "momentum of ");
         put_field(r->kinetic, m->field, &words);
+        if (m->of_lagrangian) nh_text_add(&words, ", a symmetry of the Lagrangian that the constraints allow");
         nh_text_addf(&words, "; %s%s%s.", m->proof.proved ? "proved" : "to rounding",
                      m->proof.all_parameters ? "" : nh_facts_holds(r->kinetic->model, &m->proof, false),
                      m->local ? "; not the same after a full turn of an angle" : "");
         nh_screen_say(out, NH_SCREEN_HANG, &words);
     }
+}
+
+/* What the constraints alone keep constant. */
+static void constant(const nh_reduction *r, bool colour, nh_text *out)
+{
+    enum { most_lines = 4 };
+    size_t integrals = nh_reduction_leaves(r);
+    nh_text words;
+    if (!integrals) return;
+    nh_text_add(out, r->momenta.count ? "" : "\nConserved\n");
+    for (size_t i = 0; i < r->leaf_count; i++) {
+        char *value = nh_print_short(r->kinetic->dag, r->leaf[i], 80 * NH_SCREEN_LINES);
+        nh_screen_put(out, colour, 2, "", value, most_lines, NULL);
+        nh_free(value);
+    }
+    nh_text_init(&words);
+    nh_reduction_growth_words(r, &words);
+    nh_screen_say(out, r->leaf_count ? NH_SCREEN_HANG : 2, &words);
 }
 
 /* How the printed equations and the reduced motions compare with the full ones: the worst of all stages. */
@@ -172,6 +193,7 @@ void nh_reduction_write_answer(const nh_reduction *r, bool colour, nh_text *out)
     group(r, colour, out);
     stages(r, out);
     momenta(r, colour, out);
+    constant(r, colour, out);
     check(r, out);
     for (size_t i = 0; i < r->warnings; i++)
         nh_screen_paragraph(0, 2, nh_arena_printf(r->arena, "Warning: %s", r->warning[i]), out);

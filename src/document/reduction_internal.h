@@ -8,6 +8,7 @@
 #include "document/pen.h"
 #include "document/reduction.h"
 #include "document/sheet.h"
+#include "reduction/hamilton.h"
 
 /* Facts of a stage: the assumptions that it needs. */
 void nh_reduction_conditions(const nh_reduction_stage *stage, nh_pen *pen);
@@ -20,6 +21,12 @@ void nh_reduction_full_json(const nh_reduction *reduction, nh_json *to);
 
 void nh_reduction_write_answer(const nh_reduction *reduction, bool colour, nh_text *out);
 
+/* How many functions of the positions the constraints alone keep constant; 0 where this is not known. */
+size_t nh_reduction_leaves(const nh_reduction *reduction);
+/* "constant by the constraints alone, .." after these functions: the growth vector. */
+void nh_reduction_growth_words(const nh_reduction *reduction, nh_text *out);
+void nh_reduction_growth_json(const nh_reduction *reduction, nh_json *to);
+
 /* ---- sheets ---- */
 
 /* The brackets of a group's generators: one section. */
@@ -31,5 +38,18 @@ nh_sheet *nh_reduction_equations_sheet(const nh_reduction *reduction, const nh_r
 nh_sheet *nh_reduction_remarks_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
 /* NULL for stages without such objects, and where they were not requested. */
 nh_sheet *nh_reduction_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
+
+/* Hamilton's form of a stage, in the reduction's arena; NULL where it has none. */
+const nh_hamilton *nh_reduction_hamilton(const nh_reduction *reduction, const nh_reduction_stage *stage);
+/* H and Upsilon with the momenta as variables; NULL where a stage has no such form. */
+nh_sheet *nh_reduction_hamilton_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
+void nh_reduction_hamilton_json(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_json *to);
+/* K_rs of the kinetic energy; of a stage K(e_a, e_b) for its group; what Upsilon lacks of a force of a Lagrangian. NULL
+ * where there is none. */
+nh_sheet *nh_reduction_metric_sheet(const nh_reduction *reduction);
+void nh_reduction_metric_json(const nh_reduction *reduction, nh_json *to);
+nh_sheet *nh_reduction_inertia_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
+nh_sheet *nh_reduction_helmholtz_sheet(const nh_reduction *reduction, const nh_reduction_stage *stage);
+void nh_reduction_helmholtz_json(const nh_reduction *reduction, const nh_reduction_stage *stage, nh_json *to);
 
 #endif

@@ -59,8 +59,8 @@ static nh_json *pair_of(nh_json *list, size_t a, size_t b)
     return item;
 }
 
-/* The structure constants that are not zero, with the parameters: {"of": [1, 4], "is": {"2": "(a + b)/a"}}; null for a
- * bracket that is no combination of the generators. */
+/* The brackets of the fields that are not zero, [e_a, e_b] = -C_ab^k e_k, with the parameters: {"of": [1, 4], "is":
+ * {"2": "(a + b)/a"}}; null for a bracket that is no combination of the generators. */
 static void put_brackets(nh_json *to, const nh_action *g)
 {
     nh_json *list = nh_json_put_array(to, "brackets");
@@ -79,7 +79,7 @@ static void put_brackets(nh_json *to, const nh_action *g)
                     item = pair_of(list, a, b);
                     is = nh_json_put_object(item, "is");
                 }
-                put_expression(is, nh_arena_printf(g->kinetic->arena, "%zu", k + 1), d, c);
+                put_expression(is, nh_arena_printf(g->kinetic->arena, "%zu", k + 1), d, nh_neg(d, c));
             }
         }
 }
@@ -266,6 +266,12 @@ static void put_second(nh_json *to, const nh_reduction *r, const nh_reduction_st
     put_measure(to, r, s);
 }
 
+static void put_hamilton(nh_json *to, const nh_reduction *r, const nh_reduction_stage *s)
+{
+    nh_reduction_hamilton_json(r, s, to);
+    nh_reduction_helmholtz_json(r, s, to);
+}
+
 static void put_chain(nh_json *to, const nh_reduction_stage *s)
 {
     const nh_ideals *c = s->chain;
@@ -314,19 +320,28 @@ static nh_json *put_choice(nh_json *to, const nh_reduction_choice *c)
     return item;
 }
 
-static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction_stage *s)
+static void put_slice(nh_json *to, const nh_reduction *r, const nh_reduction_stage *s)
 {
+    const nh_slice *slice = s->shown_slice;
+    nh_dag *d = r->kinetic->dag;
+    nh_json *y = nh_json_put_object(to, "slice"), *list = nh_json_put_array(to, "moved");
+    for (size_t a = 0; a < slice->d; a++) put_expression(y, slice->kinetic->name[slice->along[a]], d, slice->y[a]);
+    for (size_t i = 0; i < slice->n; i++)
+        if (nh_slice_moves(slice, i)) nh_json_add_text(list, nh_name_of(d, slice->x[i]));
+}
+
+static void put_stage(nh_json *stages, const nh_reduction *r, size_t number)
+{
+    const nh_reduction_stage *s = nh_reduction_named(&r->stage[number]);
     nh_json *to = nh_json_add_object(stages), *list = nh_json_put_array(to, "shape");
     nh_dag *d = r->kinetic->dag;
     nh_json_put_text(to, "kind", nh_stage_kind_name(s->kind));
     nh_json_put_text(to, "group", s->group);
     nh_json_put_bool(to, "local", s->local);
-    nh_json_put_bool(to, "alternative", nh_reduction_instead(r, (size_t)(s - r->stage)));
+    nh_json_put_bool(to, "alternative", nh_reduction_instead(r, number));
     put_fields(to, s->action);
     for (size_t i = 0; i < s->shown->n; i++) nh_json_add_text(list, nh_name_of(d, s->shown->x[i]));
-    nh_json *slice = nh_json_put_object(to, "slice");
-    for (size_t a = 0; a < s->shown_slice->d; a++)
-        put_expression(slice, s->shown_slice->kinetic->name[s->shown_slice->along[a]], d, s->shown_slice->y[a]);
+    put_slice(to, r, s);
     list = nh_json_put_array(to, "velocities");
     for (size_t i = 0; i < s->shown->r; i++) nh_json_add_text(list, nh_name_of(d, s->shown->w[i]));
     nh_reduction_equation *e;
@@ -343,6 +358,7 @@ static void put_stage(nh_json *stages, const nh_reduction *r, const nh_reduction
     }
     if (s->kind == NH_STAGE_CHAPLYGIN) put_chaplygin(to, r, s);
     if (s->kind == NH_STAGE_SECOND) put_second(to, r, s);
+    put_hamilton(to, r, s);
     if (s->by_stages) put_chain(to, s);
     if (s->kind == NH_STAGE_POINCARE || s->kind == NH_STAGE_SLICE) put_locked_inertia(to, s->shown_slice);
     nh_sheet *sheet = nh_reduction_sheet(r, s);
@@ -382,10 +398,11 @@ static void put_momenta(nh_json *root, const nh_reduction *r)
         const nh_momentum *p = &r->momenta.momentum[i];
         nh_json *item = nh_json_add_object(list), *field = nh_json_put_object(item, "field");
         nh_json_put_text(item, "kind",
-                         p->moving       ? "moving energy"
-                         : p->horizontal ? "horizontal"
-                         : p->gauge      ? "gauge"
-                                         : "momentum");
+                         p->moving          ? "moving energy"
+                         : p->of_lagrangian ? "lagrangian"
+                         : p->horizontal    ? "horizontal"
+                         : p->gauge         ? "gauge"
+                                            : "momentum");
         for (size_t s = 0; s < k->m; s++)
             if (!nh_is_zero(k->dag, p->field[s])) put_expression(field, k->name[s], k->dag, p->field[s]);
         put_expression(item, "expression", k->dag, p->value);
@@ -443,6 +460,7 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
     for (size_t i = 0; i < r->stages; i++) chaplygin |= r->stage[i].kind == NH_STAGE_CHAPLYGIN;
     nh_json_put_bool(root, "chaplygin", chaplygin);
     put_joints(root, r);
+    nh_reduction_metric_json(r, root);
     nh_json_put_bool(root, "partial", r->partial);
     nh_json *full = put_choice(root, &r->full);
     if (!full) nh_json_put_null(root, "accuracy");
@@ -451,9 +469,10 @@ char *nh_reduction_json(const nh_reduction *r, const nh_run *run)
         nh_json_put_text(full, "formulation", r->full_formulation);
     }
     stages = nh_json_put_array(root, "stages");
-    for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, &r->stage[i]);
+    for (size_t i = 0; i < r->stages; i++) put_stage(stages, r, i);
     nh_reduction_full_json(r, root);
     put_momenta(root, r);
+    nh_reduction_growth_json(r, root);
     put_unused(root, r);
     nh_json_put_number(root, "coordinates", (double)r->kinetic->m);
     nh_json_put_number(root, "seconds", r->seconds);

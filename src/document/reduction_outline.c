@@ -6,9 +6,11 @@
 #include "base/memory.h"
 #include "document/simulation.h"
 #include "document/facts.h"
+#include "document/formula.h"
 #include "document/reduction_internal.h"
 #include "document/screen.h"
 #include "graph/node.h"
+#include "graph/print.h"
 
 /* "SE(2) x SO(2)^3" as it is typeset. */
 static const char *group_name(const nh_reduction *r, const nh_pen *p, const char *name)
@@ -190,7 +192,62 @@ static void joints(nh_pen *p, const nh_reduction *r)
     rules(p, c);
 }
 
+/* ---- what the constraints integrate to ---- */
+
+static void growth(nh_pen *p, const nh_reduction *r)
+{
+    nh_text words;
+    if (!r->growth.length) return;
+    nh_pen_open(p, NH_PEN_HEADING, NULL, "What the constraints alone keep constant");
+    nh_pen_close(p, NH_PEN_HEADING);
+    for (size_t i = 0; i < r->leaf_count; i++) {
+        char *text = nh_formula_text(r->kinetic->dag, r->leaf[i], r->options.shown);
+        nh_pen_words(p, "<%s>", text);
+        nh_free(text);
+    }
+    nh_text_init(&words);
+    nh_reduction_growth_words(r, &words);
+    nh_pen_words(p, "%s", nh_text_string(&words));
+    nh_text_clear(&words);
+}
+
 /* ---- stages ---- */
+
+/* Where the equations are written, and which shape coordinates are others there than along a motion. */
+static void slice(nh_pen *p, const nh_reduction *r, const nh_slice *s)
+{
+    if (!s->d) return;
+    nh_pen_fact_begin(p, "Slice");
+    for (size_t a = 0; a < s->d; a++) {
+        char *value = nh_print_string(s->dag, s->y[a]);
+        nh_pen_say(p, "%s", a ? ", " : "");
+        nh_pen_name(p, s->kinetic->name[s->along[a]]);
+        nh_pen_say(p, " = %s", value);
+        nh_free(value);
+    }
+    for (int own = 1; own >= 0; own--) {
+        size_t moved = 0;
+        for (size_t i = 0; i < s->n; i++) {
+            if (!nh_slice_moves(s, i)) continue;
+            nh_pen_say(p, moved++ ? ", " : own ? "; " : ": values on it of ");
+            nh_pen_name(p, own ? nh_name_of(r->kinetic->dag, s->x[i]) : s->kinetic->name[s->shape[i]]);
+        }
+        if (moved && !own) nh_pen_say(p, ", which the group moves");
+    }
+    nh_pen_close(p, NH_PEN_FACT);
+}
+
+/* Which of them theorem 4.1 gives. */
+static void first_joint(nh_pen *p, const nh_reduction *r, const nh_action *action)
+{
+    bool *first = nh_arena_alloc(r->arena, (action->d + 1) * sizeof *first);
+    size_t count = 0, all = 0;
+    nh_group_first_joint(action, first);
+    for (size_t a = 0; a < action->d; a++) count += first[a];
+    for (size_t i = 0; i < r->joints->fields; i++) all += r->joints->field[i].rule == NH_CHAIN_FIRST;
+    if (count && count == all)
+        nh_pen_say(p, "; with the whole group of the first joint (Chhabra and Emami 2014, theorem 4.1)");
+}
 
 static void divided_out(nh_pen *p, const nh_reduction *r, const nh_reduction_stage *s)
 {
@@ -201,12 +258,14 @@ static void divided_out(nh_pen *p, const nh_reduction *r, const nh_reduction_sta
         field(p, s->action->kinetic, s->action->generator[a].component);
     }
     nh_pen_say(p, "%s", s->local ? " (this group acts only locally: it is many-valued on an angle)" : "");
+    if (r->joints && s->kind != NH_STAGE_SECOND) first_joint(p, r, s->action);
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact_begin(p, "Shape");
     for (size_t i = 0; i < o->n; i++)
         nh_pen_say(p, i ? ", " : ""), nh_pen_name(p, nh_name_of(r->kinetic->dag, o->x[i]));
     nh_pen_say(p, "%s", o->n ? "" : "a point");
     nh_pen_close(p, NH_PEN_FACT);
+    slice(p, r, s->shown_slice);
     const nh_chart *chart = s->kind == NH_STAGE_QUOTIENT && r->whole ? r->whole->chart : NULL;
     if (!chart || !chart->branch) return;
     char *branch = nh_chart_branch_name(chart, chart->branch);
@@ -216,7 +275,7 @@ static void divided_out(nh_pen *p, const nh_reduction *r, const nh_reduction_sta
 
 static void stage(nh_pen *p, const nh_reduction *r, size_t number)
 {
-    const nh_reduction_stage *s = &r->stage[number];
+    const nh_reduction_stage *s = nh_reduction_named(&r->stage[number]);
     const char *kind = nh_reduction_stage_kind(s);
     nh_pen_card(
         p,
@@ -226,6 +285,9 @@ static void stage(nh_pen *p, const nh_reduction *r, size_t number)
     nh_reduction_conditions(s, p);
     nh_pen_close(p, NH_PEN_FACTS);
     nh_pen_sheet(p, nh_reduction_equations_sheet(r, s));
+    nh_pen_sheet(p, nh_reduction_inertia_sheet(r, s));
+    nh_pen_sheet(p, nh_reduction_hamilton_sheet(r, s));
+    nh_pen_sheet(p, nh_reduction_helmholtz_sheet(r, s));
     nh_reduction_remarks(r, s, p);
     if (!p->ink->brief) nh_reduction_figures(r, s, p);
     nh_pen_sheet(p, nh_reduction_sheet(r, s));
@@ -294,11 +356,17 @@ static void reduces(nh_pen *p, const nh_reduction *r)
     nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
     nh_pen_say(p, "%zu coordinate%s, %zu constraint%s", r->kinetic->m, r->kinetic->m == 1 ? "" : "s", r->kinetic->f,
                r->kinetic->f == 1 ? "" : "s");
-    for (size_t i = 0; i < r->stages; i++) {
+    for (size_t k = 0; k < r->stages; k++) {
+        size_t i = nh_reduction_order(r, k), n = r->stage[i].shown->n;
         if (nh_reduction_on_levels(&r->stage[i])) continue;
-        size_t n = r->stage[i].shown->n;
-        if (any) nh_pen_say(p, nh_reduction_instead(r, i) ? "; in one step to %zu" : ", then to %zu", n);
-        else nh_pen_say(p, "; reduced to %zu shape coordinate%s", n, n == 1 ? "" : "s");
+        bool point = k == 0 && i > 0, other = nh_reduction_instead(r, i);
+        if (any)
+            nh_pen_say(p,
+                       other    ? "; in one step to %zu"
+                       : i == 0 ? "; instead of one step to %zu"
+                                : ", then to %zu",
+                       n);
+        else nh_pen_say(p, "; reduced %sto %zu shape coordinate%s", point ? "in one step " : "", n, n == 1 ? "" : "s");
         any = true;
     }
     nh_pen_say(p, ".");
@@ -338,10 +406,12 @@ void nh_reduction_write(const nh_reduction *r, const nh_run *run, nh_pen_style s
     if (r->all) group(p, r, r->all);
     if (r->group != r->all) group(p, r, r->group);
     joints(p, r);
+    growth(p, r);
+    nh_pen_sheet(p, nh_reduction_metric_sheet(r));
     nh_pen_section(p, "stages", "Reduced equations");
     if (!r->stages) nh_pen_words(p, "No reduction was possible.");
     full_motion(p, r);
-    for (size_t i = 0; i < r->stages; i++) stage(p, r, i);
+    for (size_t i = 0; i < r->stages; i++) stage(p, r, nh_reduction_order(r, i));
     unused(p, r);
     momenta(p, r);
     nh_pen_system(p, NULL, NULL);

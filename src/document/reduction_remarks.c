@@ -7,6 +7,7 @@
 #include "document/formula.h"
 #include "document/reduction_internal.h"
 #include "graph/node.h"
+#include "graph/print.h"
 
 void nh_reduction_conditions(const nh_reduction_stage *s, nh_pen *p)
 {
@@ -28,6 +29,53 @@ void nh_reduction_conditions(const nh_reduction_stage *s, nh_pen *p)
     else
         nh_pen_fact(p, "Momentum", "moves on a coadjoint orbit of dimension %zu; isotropy algebra of dimension %zu",
                     t->orbit, t->d - t->orbit);
+}
+
+/* ---- what the constraints integrate to ---- */
+
+size_t nh_reduction_leaves(const nh_reduction *r)
+{
+    const nh_growth *g = &r->growth;
+    return g->length && !g->cut ? g->dimension - g->rank[g->length - 1] : 0;
+}
+
+void nh_reduction_growth_words(const nh_reduction *r, nh_text *out)
+{
+    const nh_growth *g = &r->growth;
+    size_t n = nh_reduction_leaves(r), named = r->leaf_count;
+    if (named)
+        nh_text_add(out,
+                    named == 1 ? "constant by the constraints alone: " : "constant by the constraints alone, each: ");
+    nh_text_add(out, named ? "the growth vector of the distribution is " : "The growth vector of the distribution is ");
+    for (size_t i = 0; i < g->length; i++) nh_text_addf(out, "%s%zu", i ? "," : "", g->rank[i]);
+    nh_text_addf(out, " of %zu, ", g->dimension);
+    if (g->cut) nh_text_add(out, "as far as it was computed");
+    else nh_text_add(out, n ? "so it is not bracket generating" : "so it is bracket generating");
+    if (!n || g->cut) nh_text_add(out, ".");
+    else if (named >= n) nh_text_add(out, g->proved ? " (proved)." : " (by numbers).");
+    else
+        nh_text_addf(out, "%s; %zu%s function%s of the positions %s constant, and analyze looks for %s.",
+                     g->proved ? " (proved)" : " (by numbers)", n - named, named ? " more" : "",
+                     n - named == 1 ? "" : "s", n - named == 1 ? "is" : "are", n - named == 1 ? "it" : "them");
+}
+
+void nh_reduction_growth_json(const nh_reduction *r, nh_json *root)
+{
+    const nh_growth *g = &r->growth;
+    if (!g->length) {
+        nh_json_put_null(root, "distribution");
+        return;
+    }
+    nh_json *to = nh_json_put_object(root, "distribution"), *ranks = nh_json_put_array(to, "growth_vector"),
+            *list = nh_json_put_array(to, "constant");
+    for (size_t i = 0; i < g->length; i++) nh_json_add_number(ranks, (double)g->rank[i]);
+    nh_json_put_number(to, "integrals", (double)(g->dimension - g->rank[g->length - 1]));
+    nh_json_put_bool(to, "proved", g->proved);
+    for (size_t i = 0; i < r->leaf_count; i++) {
+        char *text = nh_print_string(r->kinetic->dag, r->leaf[i]);
+        nh_json_add_text(list, text);
+        nh_free(text);
+    }
 }
 
 /* ---- the measure ---- */

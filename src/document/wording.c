@@ -100,6 +100,17 @@ static const nh_glossary_entry entries[] = {
     {"zeta", "The velocity zeta_a of the group along its field e_a, in the body frame (nhsym reduce)."},
     {"shape", "Coordinates on a slice that crosses the orbits of a group. The reduced equations are written in "
               "them."},
+    {"slice", "The places at which the coordinates of a group have fixed values. The reduced equations are written "
+              "there; a coordinate x that the group moves is called x_s on it (nhsym reduce)."},
+    {"Hamilton's form",
+     "The reduced equations with momenta as variables: x' = dH/dp, p' = -dH/dx + Upsilon x'. Upsilon "
+     "vanishes where the equations are Hamiltonian in these variables (nhsym reduce --details)."},
+    {"Helmholtz's conditions",
+     "The conditions under which the force Upsilon x' of Hamilton's form comes from a Lagrangian (nhsym "
+     "reduce --details)."},
+    {"locked inertia",
+     "The kinetic energy of the velocities of a group: I_ab = K(e_a,e_b) for its fields (nhsym reduce "
+     "--details)."},
     {"stage of a reduction",
      "The division by one group: Chaplygin's, a second one by further symmetry, or the division by the "
      "whole group at once (Lagrange-d'Alembert-Poincare)."},

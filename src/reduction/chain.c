@@ -368,6 +368,24 @@ static void space_moves(work *w, size_t joint)
     }
 }
 
+/* A basis of the joint's algebra; 0 where its displacement is not a coordinate of its own. */
+static size_t own_basis(const work *w, const nh_joint *j, nh_twist *basis)
+{
+    size_t n = nh_joint_basis(w->dag, w->chain, j, basis);
+    for (size_t k = 0; k < n; k++)
+        if (w->chain->screw[j->first + k].coordinate < 0) return 0;
+    return n;
+}
+
+/* Theorem 4.1. */
+static void first_joint(work *w, size_t joint)
+{
+    const nh_joint *j = &w->chain->joint[joint];
+    nh_twist basis[most_basis];
+    size_t n = j->parent == NH_GROUND ? own_basis(w, j, basis) : 0;
+    for (size_t k = 0; k < n; k++) add_field(w, NH_CHAIN_FIRST, joint, &basis[k]);
+}
+
 /* The four rules for one joint. */
 static void joint_symmetries(work *w, size_t joint)
 {
@@ -377,12 +395,9 @@ static void joint_symmetries(work *w, size_t joint)
     nh_twist basis[most_basis], U, V;
     nh_pose pose;
     nh_ex e[most_basis];
-    size_t n = nh_joint_basis(w->dag, w->chain, j, basis);
-    for (size_t k = 0; k < n; k++)
-        if (c->screw[j->first + k].coordinate < 0) return;
+    size_t n = own_basis(w, j, basis);
     if (n == 0) return;
-    if (j->parent == NH_GROUND)
-        for (size_t k = 0; k < n; k++) add_field(w, NH_CHAIN_FIRST, joint, &basis[k]);
+    first_joint(w, joint);
     space_moves(w, joint);
     nh_chain_frame(c, d, j->parent, 0, &pose, &U);
     U = nh_twist_inwards(d, &j->placement, &U);
@@ -401,6 +416,17 @@ static void joint_symmetries(work *w, size_t joint)
     add_null_space(w, NH_CHAIN_EXTREMITY, joint, 1, n, basis, e);
 }
 
+static nh_chain_symmetries *symmetries_create(const nh_system *system)
+{
+    const nh_chain *c = system->chain;
+    nh_arena *arena = nh_arena_create();
+    nh_chain_symmetries *out = nh_arena_alloc(arena, sizeof *out);
+    *out = (nh_chain_symmetries){.arena = arena, .joints = c->joints, .first_other = INFINITY};
+    out->dimension = nh_arena_alloc(arena, (c->joints * NH_CHAIN_RULES + 1) * sizeof *out->dimension);
+    out->field = nh_arena_alloc(arena, (c->joints * NH_CHAIN_RULES * most_basis + 1) * sizeof *out->field);
+    return out;
+}
+
 nh_chain_symmetries *nh_chain_symmetries_find(const nh_system *system, uint64_t seed, nh_error *error)
 {
     const nh_chain *c = system->chain;
@@ -408,16 +434,20 @@ nh_chain_symmetries *nh_chain_symmetries_find(const nh_system *system, uint64_t 
         nh_fail(error, NH_USAGE, "", "the system %s has no bodies and joints", system->name);
         return NULL;
     }
-    nh_arena *arena = nh_arena_create();
-    nh_chain_symmetries *out = nh_arena_alloc(arena, sizeof *out);
-    *out = (nh_chain_symmetries){.arena = arena, .joints = c->joints, .first_other = INFINITY};
-    out->dimension = nh_arena_alloc(arena, (c->joints * NH_CHAIN_RULES + 1) * sizeof *out->dimension);
-    out->field = nh_arena_alloc(arena, (c->joints * NH_CHAIN_RULES * most_basis + 1) * sizeof *out->field);
+    nh_chain_symmetries *out = symmetries_create(system);
     work w = {system, c, system->dag, nh_alloc_array(c->bodies + 1, sizeof(nh_wrench)), seed, out};
     momenta(&w);
     for (size_t i = 0; i < c->joints; i++) joint_symmetries(&w, i);
     nh_free(w.behind);
     return out;
+}
+
+nh_chain_symmetries *nh_chain_first_joint(const nh_system *system)
+{
+    if (!system->chain) return NULL;
+    work w = {.system = system, .chain = system->chain, .dag = system->dag, .out = symmetries_create(system)};
+    for (size_t i = 0; i < w.chain->joints; i++) first_joint(&w, i);
+    return w.out;
 }
 
 void nh_chain_symmetries_free(nh_chain_symmetries *symmetries)

@@ -44,6 +44,8 @@ typedef struct {
 /* Leaves out joints whose displacement is not a coordinate of their own.  NULL with a message when the system has no
  * bodies. */
 nh_chain_symmetries *nh_chain_symmetries_find(const nh_system *system, uint64_t seed, nh_error *error);
+/* The fields of the first rule only; NULL when the system has no bodies. */
+nh_chain_symmetries *nh_chain_first_joint(const nh_system *system);
 void nh_chain_symmetries_free(nh_chain_symmetries *symmetries);
 
 const char *nh_chain_rule_name(nh_chain_rule rule);

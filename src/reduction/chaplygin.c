@@ -191,7 +191,7 @@ static void equations(nh_chaplygin *c)
     memcpy(o->M, c->K, n * n * sizeof *o->M);
     for (size_t i = 0; i < n; i++) {
         o->w[i] = o->dx[i] = k->v[s->shape[i]];
-        o->momentum[i] = nh_arena_printf(k->arena, "p_%s", k->name[s->shape[i]]);
+        o->momentum[i] = nh_kinetic_unused_name(k, "p_%s", k->name[s->shape[i]]);
     }
     o->conservative = forces(c, o->w);
     for (size_t i = 0; i < n; i++) {

@@ -37,10 +37,14 @@ nh_group *nh_group_within_walls(const nh_group *group, const nh_options *options
 /* How many of the local symmetries move no wall. */
 size_t nh_group_jets_within_walls(const nh_jets *jets, const nh_kinetic *kinetic, const nh_options *options);
 
-/* The subset of the generators (as many as constraints) that makes a Chaplygin system; false when there is none.  Of
- * several: the one that most of the others normalise, then the least abelian, then the one with the most generators
- * along coordinates that the system calls dependent, then the best conditioned over the sample points. */
-bool nh_group_chaplygin(const nh_group *group, const nh_options *options, size_t *index);
+/* The subalgebra (t: d x f columns, as many as constraints) that makes a Chaplygin system; false when there is none.
+ * Of several: without many-valued fields, then the one that most of the other symmetries normalise, then that with
+ * most of the first joint's displacements, then the least abelian, then the one with the most generators along
+ * coordinates that the system calls dependent, or along one coordinate, then one of the best conditioned over the
+ * sample points, the last of these. */
+bool nh_group_chaplygin(const nh_group *group, const nh_options *options, double *t);
+/* first[a]: generator a is a displacement that the joints on the ground allow, of all bodies behind them. */
+void nh_group_first_joint(const nh_action *action, bool *first);
 /* Where there is none: the number of subsets of that size that span a subalgebra, and the largest transversality (see
  * nh_action) among them. */
 size_t nh_group_subalgebras(const nh_group *group, size_t size, double *transversality);
@@ -51,6 +55,8 @@ size_t nh_group_free_subset(const nh_group *group, const nh_options *options, si
 size_t nh_group_free_basis(const nh_group *group, const nh_options *options, double *t);
 /* Combinations of the generators outside a subset that normalise it ([x, subset] in the span of the subset): t (d x d)
  * gets the columns; returns their number. */
-size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, double *t);
+size_t nh_group_normaliser(const nh_algebra *algebra, size_t count, const size_t *subset, double *t);
+/* The same for the span of `count` columns s (d x count): combinations of generators that complete these to a basis. */
+size_t nh_group_normaliser_of(const nh_algebra *algebra, size_t count, const double *s, double *t);
 
 #endif

@@ -113,17 +113,13 @@ size_t nh_group_free_basis(const nh_group *g, const nh_options *options, double 
     return s.best;
 }
 
-size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *subset, double *t)
+/* t: combinations of the generators `other` (d - count of them). */
+static size_t normaliser(const nh_algebra *g, size_t count, const size_t *subset, size_t n, const size_t *other,
+                         double *kernel)
 {
     static const double small = 1e-9;
-    const nh_algebra *g = &group->action.algebra;
-    size_t d = g->d, n = 0, rows = count * d, *other = nh_alloc_array(d + 1, sizeof *other);
-    for (size_t a = 0; a < d; a++) {
-        bool inside = false;
-        for (size_t i = 0; i < count; i++) inside |= subset[i] == a;
-        if (!inside) other[n++] = a;
-    }
-    double *a = nh_alloc_array(rows * n + n * n + 1, sizeof *a), *kernel = a + rows * n;
+    size_t d = g->d, rows = count * d;
+    double *a = nh_alloc_array(rows * n + 1, sizeof *a);
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < n; k++) /* the part of [x, subset[i]] along other[k] */
             for (size_t j = 0; j < n; j++) a[i * d + k + j * rows] = g->c[(other[j] * d + subset[i]) * d + other[k]];
@@ -134,10 +130,46 @@ size_t nh_group_normaliser(const nh_group *group, size_t count, const size_t *su
         for (size_t j = 0; j < n; j++)
             if (nh_largest(rows, a + j * rows) == 0) kernel[j + n * found++] = 1;
     }
+    nh_free(a);
+    return found;
+}
+
+size_t nh_group_normaliser(const nh_algebra *g, size_t count, const size_t *subset, double *t)
+{
+    size_t d = g->d, n = 0, *other = nh_alloc_array(d + 1, sizeof *other);
+    for (size_t a = 0; a < d; a++) {
+        bool inside = false;
+        for (size_t i = 0; i < count; i++) inside |= subset[i] == a;
+        if (!inside) other[n++] = a;
+    }
+    double *kernel = nh_alloc_array(n * n + 1, sizeof *kernel);
+    size_t found = normaliser(g, count, subset, n, other, kernel);
     memset(t, 0, d * d * sizeof *t);
     for (size_t c = 0; c < found; c++)
         for (size_t j = 0; j < n; j++) t[other[j] + c * d] = kernel[j + c * n];
-    nh_free(a);
+    nh_free(kernel);
     nh_free(other);
+    return found;
+}
+
+size_t nh_group_normaliser_of(const nh_algebra *g, size_t count, const double *s, double *t)
+{
+    static const double small = 1e-9;
+    size_t d = g->d, n = count, *subset = nh_alloc_array(d + 1, sizeof *subset);
+    double *basis = nh_alloc_array(3 * d * d + d + 1, sizeof *basis), *in = basis + d * d, *u = in + d * d + d;
+    memcpy(basis, s, count * d * sizeof *basis);
+    for (size_t a = 0; a < d && n < d; a++) { /* completed by unit vectors */
+        memset(basis + n * d, 0, d * sizeof *basis);
+        basis[n * d + a] = 1;
+        n += nh_span(d, n + 1, basis, small, u) == n + 1;
+    }
+    for (size_t i = 0; i < count; i++) subset[i] = i;
+    nh_algebra changed = nh_algebra_change(g, d, basis, NULL);
+    size_t found = nh_group_normaliser(&changed, count, subset, in);
+    memset(t, 0, d * d * sizeof *t);
+    nh_multiply(d, found, d, basis, in, t);
+    nh_algebra_clear(&changed);
+    nh_free(basis);
+    nh_free(subset);
     return found;
 }

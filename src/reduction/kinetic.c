@@ -7,6 +7,8 @@
 #include "reduction/kinetic.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/linalg.h"
@@ -16,6 +18,7 @@
 #include "exact/generic_value.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
+#include "graph/node.h"
 #include "system/constraint_samples.h"
 
 static bool depends_on_any(const nh_dag *d, nh_ex e, size_t n, const nh_ex *symbol)
@@ -321,6 +324,29 @@ nh_kinetic *nh_kinetic_metric(const nh_model *model, uint64_t seed, nh_error *er
 void nh_kinetic_free(nh_kinetic *k)
 {
     if (k) nh_arena_free(k->arena);
+}
+
+static bool used(const nh_kinetic *k, const char *name)
+{
+    const nh_system *system = k->model->system;
+    nh_ex symbol;
+    bool found = nh_symbol_find(k->dag, name, &symbol);
+    for (size_t i = 0; i < system->definitions && !found; i++) found = !strcmp(system->definition[i].name, name);
+    for (size_t i = 0; i < system->quasi && !found; i++)
+        found = !strcmp(nh_name_of(k->dag, system->quasi_velocity[i]), name);
+    return found;
+}
+
+const char *nh_kinetic_unused_name(const nh_kinetic *k, const char *format, ...)
+{
+    char text[200];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    const char *name = nh_arena_printf(k->arena, "%s", text);
+    while (used(k, name)) name = nh_arena_printf(k->arena, "%s_r", name);
+    return name;
 }
 
 nh_tape *nh_kinetic_tape(const nh_kinetic *k, size_t count, const nh_ex *out)

@@ -45,6 +45,10 @@ nh_kinetic *nh_kinetic_create(const nh_model *model, uint64_t seed, nh_error *er
 nh_kinetic *nh_kinetic_metric(const nh_model *model, uint64_t seed, nh_error *error);
 void nh_kinetic_free(nh_kinetic *kinetic);
 
+/* The name, with _r behind it where the file has one like it: of a coordinate, velocity, parameter or definition.  In
+ * the kinetic's arena. */
+const char *nh_kinetic_unused_name(const nh_kinetic *kinetic, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 /* A tape of expressions in the coordinates, parameters bound. */
 nh_tape *nh_kinetic_tape(const nh_kinetic *kinetic, size_t count, const nh_ex *out);
 /* d e / d x; 0 once the run was ended (base/progress.h): of large mass matrices all derivatives are wanted, and of an

@@ -201,21 +201,19 @@ static bool hamiltonization(nh_linear_system *s, const nh_kinetic *k, const nh_o
     if (!k->f) return refuse(s, "without constraints every system is Hamiltonian");
     nh_group *group = nh_group_find(k, options, &none);
     if (!group) return refuse(s, "the symmetry group was not found");
-    size_t d = group->action.d, *index = nh_alloc_array(d + 1, sizeof *index);
-    bool good = d >= k->f && nh_group_chaplygin(group, options, index);
+    size_t d = group->action.d;
+    double *t = nh_alloc_array(d * k->f + 1, sizeof *t);
+    bool good = d >= k->f && nh_group_chaplygin(group, options, t);
     if (!good) refuse(s, "no group of symmetries makes a Chaplygin system");
     else {
-        nh_generator *g = nh_alloc_array(k->f + 1, sizeof *g);
-        for (size_t a = 0; a < k->f; a++) g[a] = group->action.generator[index[a]];
-        nh_action_init(&action, k, k->f, g, options);
-        nh_group *part = nh_group_of(k, k->f, g, options);
+        nh_action_sub(&action, &group->action, k->f, t, options);
+        nh_group *part = nh_group_of(k, k->f, action.generator, options);
         s->group = nh_arena_strdup(s->arena, part->name);
         good = chaplygin(s, k, &action);
         nh_group_free(part);
         nh_action_clear(&action);
-        nh_free(g);
     }
-    nh_free(index);
+    nh_free(t);
     nh_group_free(group);
     return good;
 }

@@ -96,8 +96,8 @@ static void name_velocities(nh_reduced *o, const nh_slice *s, const size_t *inde
         const char *name =
             shape ? k->name[s->shape[independent[i]]] : nh_arena_printf(k->arena, "%zu", independent[i] - s->n + 1);
         o->w[i] =
-            shape ? k->v[s->shape[independent[i]]] : nh_symbol_fresh(k->dag, nh_arena_printf(k->arena, "zeta%s", name));
-        o->momentum[i] = nh_arena_printf(k->arena, shape ? "p_%s" : "mu_%s", name);
+            shape ? k->v[s->shape[independent[i]]] : nh_symbol_fresh(k->dag, nh_kinetic_unused_name(k, "zeta%s", name));
+        o->momentum[i] = nh_kinetic_unused_name(k, shape ? "p_%s" : "mu_%s", name);
     }
 }
 

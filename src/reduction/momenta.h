@@ -23,11 +23,12 @@ typedef struct {
     bool horizontal; /* f is constant, and f^a e_a lies in D */
     /* f is not constant; neither: f is constant, and the reaction does no work along f^a e_a though that is not in D */
     bool gauge;
-    bool moving;     /* not a momentum: the moving energy, f = c */
-    nh_ex *f;        /* d */
-    nh_ex *field;    /* m: f^a e_a */
-    nh_ex value;     /* f^a J_a (or E - f^a J_a) as a function of (q, v) */
-    double residual; /* of the two conditions, relative */
+    bool of_lagrangian; /* f^a e_a lies in D and leaves L invariant, but not D */
+    bool moving;        /* not a momentum: the moving energy, f = c */
+    nh_ex *f;           /* d */
+    nh_ex *field;       /* m: f^a e_a */
+    nh_ex value;        /* f^a J_a (or E - f^a J_a) as a function of (q, v) */
+    double residual;    /* of the two conditions, relative */
     nh_proof proof;
     bool local; /* the field or the value is many-valued on an angle */
 } nh_momentum;

@@ -67,6 +67,9 @@ bool nh_second_init(nh_second *second, const nh_chaplygin *first, size_t d, cons
 /* x: a place of the shape space (n of the first stage) through which the slice goes. */
 bool nh_second_equations(nh_second *second, const size_t *shape, const size_t *along, const double *y0,
                          nh_error *error);
+/* U_kij of the first stage on its shape space in the first `count` vectors of the frame h_1 .. h_n, e_1 .. e_d, h_i =
+ * d_i - Av^a_i e_a: count^3 values, k first; count = n, or all of them. */
+void nh_second_form(const nh_second *second, size_t count, nh_ex *out);
 /* The same group on the same shape space, with the first stage's linear systems eliminated for a place of its (pivots:
  * n of the first stage, kept; NULL: as they are).  The equations are to be made next; nothing is to be cleared. */
 bool nh_second_renew(nh_second *out, const nh_second *second, const double *pivots, nh_error *error);

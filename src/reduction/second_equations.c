@@ -102,28 +102,27 @@ static void gyroscopic(const nh_second *s, const nh_ex *u, nh_ex *g)
     nh_free(speed);
 }
 
-/* U_kij of the first stage on the horizontal vectors h_i = d_i - Av^a_i e_a. */
-static void horizontal_form(nh_second *s)
+void nh_second_form(const nh_second *s, size_t count, nh_ex *out)
 {
     const nh_slice *c = &s->slice;
     nh_dag *d = c->dag;
     size_t m = c->m, n = c->n, cube = m * m * m;
-    nh_ex *h = nh_alloc_array(m * n + cube + s->d + 1, sizeof *h), *U = h + m * n, *from = U + cube;
+    nh_ex *h = nh_alloc_array(m * m + cube + s->d + 1, sizeof *h), *U = h + m * m, *from = U + cube;
     for (size_t a = 0; a < s->d; a++) from[a] = s->hat->q[c->along[a]];
     for (size_t i = 0; i < cube; i++) U[i] = nh_substitute(d, s->first->U[i], s->d, from, c->y);
     for (size_t r = 0; r < m; r++)
-        for (size_t i = 0; i < n; i++) {
-            h[r * n + i] = nh_int(d, c->shape[i] == r);
-            for (size_t a = 0; a < s->d; a++)
-                h[r * n + i] = plus(d, h[r * n + i], nh_neg(d, c->E[r * s->d + a]), s->Av[a * n + i]);
+        for (size_t i = 0; i < count; i++) {
+            h[r * m + i] = i < n ? nh_int(d, c->shape[i] == r) : c->E[r * s->d + i - n];
+            for (size_t a = 0; a < s->d && i < n; a++)
+                h[r * m + i] = plus(d, h[r * m + i], nh_neg(d, c->E[r * s->d + a]), s->Av[a * n + i]);
         }
-    for (size_t at = 0; at < n * n * n; at++) {
-        size_t k = at / (n * n), i = at / n % n, j = at % n;
-        s->U[at] = nh_int(d, 0);
+    for (size_t at = 0; at < count * count * count; at++) {
+        size_t k = at / (count * count), i = at / count % count, j = at % count;
+        out[at] = nh_int(d, 0);
         for (size_t r = 0; r < cube; r++) {
             size_t a = r / (m * m), b = r / m % m, e = r % m;
             if (!nh_is_zero(d, U[r]))
-                s->U[at] = plus(d, s->U[at], nh_mul(d, U[r], h[a * n + k]), nh_mul(d, h[b * n + i], h[e * n + j]));
+                out[at] = plus(d, out[at], nh_mul(d, U[r], h[a * m + k]), nh_mul(d, h[b * m + i], h[e * m + j]));
         }
     }
     nh_free(h);
@@ -132,15 +131,15 @@ static void horizontal_form(nh_second *s)
 static void names(nh_second *s)
 {
     nh_reduced *o = &s->reduced;
-    nh_arena *arena = s->hat->arena;
+    const nh_kinetic *k = s->first->slice->kinetic;
     for (size_t i = 0; i < s->n; i++) {
         size_t c = s->slice.shape[i];
         o->w[i] = o->dx[i] = s->hat->v[c];
-        o->momentum[i] = nh_arena_printf(arena, "p_%s", s->hat->name[c]);
+        o->momentum[i] = nh_kinetic_unused_name(k, "p_%s", s->hat->name[c]);
     }
     for (size_t a = 0; a < s->d; a++) {
-        o->w[s->n + a] = nh_symbol_fresh(s->slice.dag, nh_arena_printf(arena, "v%zu", a + 1));
-        o->momentum[s->n + a] = nh_arena_printf(arena, "m_%zu", a + 1);
+        o->w[s->n + a] = nh_symbol_fresh(s->slice.dag, nh_kinetic_unused_name(k, "v%zu", a + 1));
+        o->momentum[s->n + a] = nh_kinetic_unused_name(k, "m_%zu", a + 1);
     }
 }
 
@@ -256,7 +255,7 @@ bool nh_second_equations(nh_second *s, const size_t *shape, const size_t *along,
     s->U = s->Bv + d * n * n;
     if (!connection(s)) return nh_fail(error, NH_NUMERIC, "", "the locked inertia of the second group is singular");
     curvature(s);
-    horizontal_form(s);
+    nh_second_form(s, n, s->U);
     equations(s);
     s->orbit = orbit_dimension(&s->action.algebra);
     return true;

@@ -347,3 +347,10 @@ bool nh_slice_nice(const nh_action *g, const size_t *along, double *y)
     }
     return false;
 }
+
+bool nh_slice_moves(const nh_slice *s, size_t i)
+{
+    for (size_t a = 0; a < s->d; a++)
+        if (!nh_is_zero(s->dag, s->action->generator[a].component[s->shape[i]])) return true;
+    return false;
+}

@@ -48,6 +48,9 @@ bool nh_slice_nice(const nh_action *action, const size_t *along, double *y);
 void nh_slice_init(nh_slice *slice, const nh_action *action, const size_t *shape, const size_t *along,
                    const double *y0);
 
+/* Does the group move shape coordinate i? */
+bool nh_slice_moves(const nh_slice *slice, size_t i);
+
 /* Components u = (x', zeta) in the frame of a velocity at a place q on the slice (m values each).  False when the frame
    is singular there. */
 bool nh_slice_components(const nh_slice *slice, const double *q, const double *v, double *u);
