@@ -310,7 +310,8 @@ $(BUILD)/src/evaluate/tape_batch.o: OWN_CFLAGS += -O3 -fno-math-errno -fno-trapp
 $(BUILD)/src/motion/ensemble.o: OWN_CFLAGS += -O3
 
 # The loops over residues.
-$(BUILD)/src/exact/residue.o $(BUILD)/src/exact/row_sum.o: OWN_CFLAGS += -O3
+$(BUILD)/src/exact/residue.o $(BUILD)/src/exact/row_sum.o $(BUILD)/src/exact/gather_sum.o \
+$(BUILD)/src/exact/gather_shape.o: OWN_CFLAGS += -O3
 
 # Where systems are looked for at last (src/problem/places.c).
 $(BUILD)/src/problem/places.o: OWN_CPPFLAGS += -DNH_DATADIR='"$(PREFIX)/share/nhsym"'

@@ -95,7 +95,12 @@ Test(first_screen, quantities_are_told_in_the_words_of_mechanics)
         {"henon_heiles", {"Only the energy is conserved", "Nothing else is conserved among polynomials in the velocities up to degree 6", "y'' = y^2 - y - x^2"}},
         {"rolling_disk", {"3 independent conserved quantities were found. At most 8 can exist.   m = 1.3"}}, /* of its motion some states only are known */
         {"isotropic_oscillator", {"Linear in the velocities. From time-dependent shifts of x, y and z."}},
-        {"free_particle", {"Momentum conjugate to x and y. From shifting x and y.", "From boosts along x, y and z."}},
+        {"free_particle", {"Momentum conjugate to x and y. From shifting x and y.", "4  x - t*x'", "Motion of the centre of mass. From boosts along x, y and z."}},
+        {"rotating_saddle", {"Jacobi's integral. From a symmetry that moves time, x and y."}},
+        {"skate_on_belt", {"2  x' + y*th'", "Moving energy. From a symmetry that moves time and x."}},
+        {"veselova", {"Component of the spatial angular momentum."}},
+        {"chaplygin_ball", {"Angular momentum conjugate to p.", "Component of the spatial angular momentum."}},
+        {"suslov_principal", {"Component of the angular momentum in the body."}},
         {"lagrange_top", {"p_s = ", "Angular momentum conjugate to s: spin about its own axis. From turning s."}},
     };
     place p = place_with_systems();
@@ -222,6 +227,34 @@ Test(first_screen, forms_have_their_names)
         one_line(f.out);
         cr_expect(strstr(f.out, tried[i].says), "%s: no `%s` in\n%s", tried[i].lagrangian, tried[i].says, f.out);
         cr_expect(!strstr(f.out, tried[i].never), "%s\n%s", tried[i].lagrangian, f.out);
+        finished_clear(&f);
+    }
+    place_clear(&p);
+}
+
+/* Names come from definitions: Euler's angles about z, y and z with other letters and in another order; and what looks
+ * like a moving energy without a constraint that moves. */
+Test(first_screen, names_do_not_depend_on_letters)
+{
+    static const struct {
+        const char *rest, *says, *never;
+    } tried[] = {
+        {"coordinates: [c: angle, a: angle, b: angle]\n"
+         "lagrangian: (1.1*(b'*sin(c) - a'*sin(b)*cos(c))^2 + 1.7*(b'*cos(c) + a'*sin(b)*sin(c))^2 + 2.3*(a'*cos(b) + c')^2)/2\ndomain: {b: [0.6, 1.4]}\n",
+         "Component of the spatial angular momentum.", "in the body"},
+        {"coordinates: [u: length, w: length]\nlagrangian: (u'^2 + w'^2)/2 - ((u^2 - w^2)*cos(2*t) + 2*u*w*sin(2*t))/5\n", "Jacobi's integral.", "Moving energy"},
+        {"coordinates: [u: length, w: length]\nlagrangian: (u'^2 + w'^2)/2 - u^4 - 3*w^4\n", "Energy.", "Jacobi"},
+    };
+    place p = place_make();
+    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
+        char file[800];
+        snprintf(file, sizeof file, "name: a\n%s", tried[i].rest);
+        write_here(&p, "a.yaml", file);
+        finished f = run_expecting(&p, "analyze a.yaml", 0);
+        check_screen("analyze", f.out);
+        one_line(f.out);
+        cr_expect(strstr(f.out, tried[i].says), "no `%s` in\n%s", tried[i].says, f.out);
+        cr_expect(!strstr(f.out, tried[i].never), "`%s` in\n%s", tried[i].never, f.out);
         finished_clear(&f);
     }
     place_clear(&p);

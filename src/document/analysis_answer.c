@@ -24,11 +24,13 @@ typedef struct {
     /* what is left out where the full answer does not fit: SHORT: long formulas; PLAIN: symmetries whose words
      * take a line as well; BARE: formulas with names for their parts; LIST: all sentences */
     enum { FULL, SHORT, PLAIN, BARE, LIST } terse;
-    bool all_proved;      /* every quantity */
-    bool *written;        /* of each: was its formula? */
-    const char *energy;   /* "T + V", or NULL */
-    const char **proof;   /* of each: "for all m, k", or the sentence that says how sure it is */
-    nh_formula_list list; /* of the quantities, with common names for repeated parts */
+    bool all_proved;         /* every quantity */
+    bool *written;           /* of each: was its formula? */
+    const char *energy;      /* "T + V", or NULL */
+    const char **proof;      /* of each: "for all m, k", or the sentence that says how sure it is */
+    nh_ex *shown;            /* of each: its formula */
+    nh_current_words *words; /* of each */
+    nh_formula_list list;    /* of the quantities, with common names for repeated parts */
 } screen;
 
 static void say(const screen *x, size_t indent, nh_text *words) { nh_screen_say(x->out, indent, words); }
@@ -100,7 +102,7 @@ static void headline(const screen *x)
 
 nh_ex nh_analysis_answer_shown(const nh_analysis *r, const nh_current *f)
 {
-    nh_ex e = nh_chart_shown(r->question->model->chart, nh_current_signed(r, f, f->phi));
+    nh_ex e = nh_chart_shown(r->question->model->chart, nh_current_plain(r, f));
     return nh_formula_shortened(r->question->analysis, r->question->model->dag, e);
 }
 
@@ -202,14 +204,13 @@ static bool fits_line(size_t indent, size_t n, const nh_current_words *s, nh_tex
 static void put_quantities(const screen *x)
 {
     size_t n = x->r->list->count;
-    nh_current_words *full = nh_arena_alloc(x->r->arena, (n + 1) * sizeof *full), *s = full;
-    if (x->terse >= PLAIN) s = nh_arena_alloc(x->r->arena, (n + 1) * sizeof *s);
+    const nh_current_words *full = x->words;
+    nh_current_words *s = nh_arena_alloc(x->r->arena, (n + 1) * sizeof *s);
     nh_text text;
     nh_text_init(&text);
     for (size_t k = 0; k < n; k++) {
-        const char *proof = x->all_proved ? NULL : x->proof[k];
-        full[k] = nh_current_words_of(x->r, &x->r->list->found[k], true, proof);
-        if (s != full) s[k] = nh_current_words_of(x->r, &x->r->list->found[k], false, proof);
+        s[k] = full[k];
+        if (x->terse >= PLAIN) s[k].how = s[k].what = "";
     }
     for (size_t k = 0, end; k < n; k = end) {
         bool alike = true;
@@ -218,9 +219,9 @@ static void put_quantities(const screen *x)
             put_quantity(x, end);
         }
         size_t indent = end < 10 ? 3 : 4;
-        if (s != full && !(alike && fits_line(indent, end - k, full + k, &text)))
+        if (x->terse < PLAIN) nh_current_words_put(end - k, full + k, &text);
+        else if (!alike || !fits_line(indent, end - k, full + k, &text))
             nh_text_clear(&text), nh_current_words_put(end - k, s + k, &text);
-        if (s == full) nh_current_words_put(end - k, s + k, &text);
         if (x->terse == LIST) nh_text_clear(&text);
         say(x, indent, &text);
     }
@@ -284,15 +285,12 @@ static void quantities(screen *x)
 {
     const nh_analysis *r = x->r;
     const nh_current_list *list = r->list;
-    nh_ex *e = nh_alloc_array(list->count + 1, sizeof *e);
     size_t names = 0;
-    for (size_t k = 0; k < list->count; k++) e[k] = nh_analysis_answer_shown(r, &list->found[k]);
-    x->list = nh_formula_list_make(r->question->model->dag, list->count, e, r->question->options.shown, &names);
+    x->list = nh_formula_list_make(r->question->model->dag, list->count, x->shown, r->question->options.shown, &names);
     if (list->count) nh_text_add(x->out, "\n");
     put_quantities(x);
     put_parts(x);
     nh_formula_list_clear(&x->list);
-    nh_free(e);
     if (x->all_proved) put_proofs(x);
     put_local(x);
     put_regions(x);
@@ -492,8 +490,12 @@ void nh_analysis_write_answer(const nh_analysis *r, bool colour, nh_text *out)
     screen x = {.r = r, .out = &text, .colour = colour, .all_proved = all_proved(r)};
     x.proof = nh_arena_alloc(r->arena, (r->list->count + 1) * sizeof *x.proof);
     x.written = nh_arena_alloc(r->arena, (r->list->count + 1) * sizeof *x.written);
+    x.shown = nh_arena_alloc(r->arena, (r->list->count + 1) * sizeof *x.shown);
+    x.words = nh_arena_alloc(r->arena, (r->list->count + 1) * sizeof *x.words);
     for (size_t k = 0; k < r->list->count; k++) {
         x.proof[k] = nh_facts_proof(r, &r->list->found[k]);
+        x.shown[k] = nh_analysis_answer_shown(r, &r->list->found[k]);
+        x.words[k] = nh_current_words_of(r, &r->list->found[k], true, x.all_proved ? NULL : x.proof[k]);
         if (nh_current_is_energy(&r->list->found[k])) x.energy = nh_current_energy_named(r);
     }
     write(&x);

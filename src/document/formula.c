@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "exact/gather.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
 #include "graph/node.h"
@@ -21,7 +22,7 @@ nh_ex nh_formula_shortened(const nh_analysis_file *a, nh_dag *d, nh_ex e)
                     nh_exponent_of(d, value, 0) == nh_ratio(d, 1, 2);
         e = root ? nh_substitute_root(d, e, nh_child(d, value, 0), name) : nh_substitute(d, e, 1, &value, &name);
     }
-    return e;
+    return nh_gather(d, e);
 }
 
 nh_ex nh_formula_shown(const nh_analysis *result, nh_ex e)

@@ -5,7 +5,8 @@
 #include "document/typeset.h"
 #include "search/analysis.h"
 
-/* e with the abbreviations of the analysis file (or NULL) in place of the expressions that they stand for. */
+/* e as it is shown: with the abbreviations of the analysis file (or NULL) in place of the expressions that they stand
+ * for, in the form that reads best (exact/gather.h). */
 nh_ex nh_formula_shortened(const nh_analysis_file *analysis, nh_dag *dag, nh_ex e);
 /* e with roots replaced by the dependent velocities to which they are equal. */
 nh_ex nh_formula_shown(const nh_analysis *result, nh_ex e);

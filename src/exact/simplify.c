@@ -273,7 +273,7 @@ static nh_ex simplify(context *shared, nh_ex e)
     contest c = {.shared = shared, .dag = shared->dag, .best = e, .last = e, .length = nh_complexity(shared->dag, e)};
     if (c.length <= shortest || nh_interrupted()) return e;
     if (shared->depth > deepest) return shared->too_deep++, e;
-    if (nh_dag_simplified(c.dag, e, true, &before)) return before;
+    if (nh_dag_form(c.dag, e, NH_FORM_PART, &before)) return before;
     if (nh_index_get(&shared->done, e, &known)) return known;
     size_t left = shared->too_deep;
     shared->depth++;
@@ -284,7 +284,7 @@ static nh_ex simplify(context *shared, nh_ex e)
     shared->depth--;
     if (!nh_index_get(&shared->done, e, &known)) nh_index_put(&shared->done, e, c.best);
     /* the same parts are in many expressions: the graph keeps what does not depend on the rest */
-    if (shared->too_deep == left && !nh_interrupted()) nh_dag_set_simplified(c.dag, e, true, c.best);
+    if (shared->too_deep == left && !nh_interrupted()) nh_dag_set_form(c.dag, e, NH_FORM_PART, c.best);
     return c.best;
 }
 
@@ -348,7 +348,7 @@ static nh_ex restore_roots(context *shared, nh_ex source, nh_ex result)
 nh_ex nh_simplify(nh_dag *dag, nh_ex e)
 {
     nh_ex known;
-    if (nh_dag_simplified(dag, e, false, &known)) return known;
+    if (nh_dag_form(dag, e, NH_FORM_SIMPLE, &known)) return known;
     context shared = {.dag = dag};
     nh_forms_init(&shared.literal, dag, true, most_terms);
     nh_forms_init(&shared.cut, dag, false, most_terms);
@@ -359,8 +359,8 @@ nh_ex nh_simplify(nh_dag *dag, nh_ex e)
     nh_index_clear(&shared.done);
     nh_index_clear(&shared.rational);
     if (nh_interrupted()) return result; /* this result may not be the shortest */
-    nh_dag_set_simplified(dag, e, false, result);
-    nh_dag_set_simplified(dag, result, false, result);
+    nh_dag_set_form(dag, e, NH_FORM_SIMPLE, result);
+    nh_dag_set_form(dag, result, NH_FORM_SIMPLE, result);
     return result;
 }
 

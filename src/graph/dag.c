@@ -41,8 +41,7 @@ nh_dag *nh_dag_copy(const nh_dag *dag)
     c->bucket = copied(dag->bucket, dag->bucket_count, sizeof *c->bucket);
     c->name = copied(dag->name, c->name_capacity = dag->name_count, sizeof *c->name);
     c->memo = copied(dag->memo, dag->memo_capacity, sizeof *c->memo);
-    for (int part = 0; part < 2; part++)
-        c->simplified[part] = copied(dag->simplified[part], dag->simplified_capacity[part], sizeof **c->simplified);
+    for (int k = 0; k < NH_FORMS; k++) c->form[k] = copied(dag->form[k], dag->form_capacity[k], sizeof **c->form);
     c->rule = copied(dag->rule, c->rule_capacity = dag->rule_count, sizeof *c->rule);
     c->power = copied(dag->power, c->power_capacity = dag->power_count, sizeof *c->power);
     c->declared = copied(dag->declared, c->declared_capacity = dag->declared_count, sizeof *c->declared);
@@ -58,8 +57,7 @@ void nh_dag_free(nh_dag *dag)
     nh_free(dag->bucket);
     nh_free(dag->name);
     nh_free(dag->memo);
-    nh_free(dag->simplified[0]);
-    nh_free(dag->simplified[1]);
+    for (int k = 0; k < NH_FORMS; k++) nh_free(dag->form[k]);
     nh_free(dag->rule);
     nh_free(dag->power);
     nh_free(dag->declared);
@@ -154,23 +152,23 @@ nh_ex nh_dag_intern(nh_dag *dag, unsigned kind, unsigned op, size_t count, const
     return find_node(dag, hash, kind, op, count, arg, &same) ? same : append_node(dag, hash, kind, op, count, arg);
 }
 
-/* ---- simplest forms ---- */
+/* ---- forms ---- */
 
-bool nh_dag_simplified(const nh_dag *dag, nh_ex e, bool part, nh_ex *out)
+bool nh_dag_form(const nh_dag *dag, nh_ex e, nh_dag_kept kept, nh_ex *out)
 {
-    if (e >= dag->simplified_capacity[part] || !dag->simplified[part][e]) return false;
-    *out = dag->simplified[part][e] - 1;
+    if (e >= dag->form_capacity[kept] || !dag->form[kept][e]) return false;
+    *out = dag->form[kept][e] - 1;
     return true;
 }
 
-void nh_dag_set_simplified(nh_dag *dag, nh_ex e, bool part, nh_ex simple)
+void nh_dag_set_form(nh_dag *dag, nh_ex e, nh_dag_kept kept, nh_ex form)
 {
-    size_t old = dag->simplified_capacity[part];
+    size_t old = dag->form_capacity[kept];
     if (e >= old) {
-        nh_grow(&dag->simplified[part], &dag->simplified_capacity[part], dag->node_count, sizeof **dag->simplified);
-        memset(dag->simplified[part] + old, 0, (dag->simplified_capacity[part] - old) * sizeof **dag->simplified);
+        nh_grow(&dag->form[kept], &dag->form_capacity[kept], dag->node_count, sizeof **dag->form);
+        memset(dag->form[kept] + old, 0, (dag->form_capacity[kept] - old) * sizeof **dag->form);
     }
-    dag->simplified[part][e] = simple + 1;
+    dag->form[kept][e] = form + 1;
 }
 
 /* ---- leaves ---- */

@@ -37,6 +37,10 @@ typedef struct {
     const char *const *letters; /* of a table: the names of its variables */
 } nh_declared;
 
+/* Forms of an expression that the graph keeps: the simplest one; the same before calls and roots are written as in the
+ * source, for parts of others; the one that is shown (exact/gather.h). */
+typedef enum { NH_FORM_SIMPLE, NH_FORM_PART, NH_FORM_SHOWN, NH_FORMS } nh_dag_kept;
+
 struct nh_dag {
     nh_dag_nodes all; /* first */
     size_t node_count, node_capacity;
@@ -48,9 +52,8 @@ struct nh_dag {
     nh_arena *names;
     nh_diff_memo *memo;
     size_t memo_count, memo_capacity;
-    /* per node: its simplest form + 1, of itself and as a part of others; 0 when not yet asked */
-    nh_ex *simplified[2];
-    size_t simplified_capacity[2];
+    nh_ex *form[NH_FORMS]; /* per node: its form + 1; 0 when not yet asked */
+    size_t form_capacity[NH_FORMS];
     nh_diff_rule_entry *rule;
     size_t rule_count, rule_capacity;
     nh_power_rule *power;
@@ -64,10 +67,9 @@ struct nh_dag {
 /* The relation that a symbol satisfies, or NULL. */
 const nh_power_rule *nh_dag_power_rule(const nh_dag *dag, nh_ex symbol);
 
-/* The memo of nh_simplify; false where e is not there, otherwise *out.  `part`: before calls and roots are written as
- * in the source. */
-bool nh_dag_simplified(const nh_dag *dag, nh_ex e, bool part, nh_ex *out);
-void nh_dag_set_simplified(nh_dag *dag, nh_ex e, bool part, nh_ex simple);
+/* The memo of forms of e; false where e is not there, otherwise *out. */
+bool nh_dag_form(const nh_dag *dag, nh_ex e, nh_dag_kept kept, nh_ex *out);
+void nh_dag_set_form(nh_dag *dag, nh_ex e, nh_dag_kept kept, nh_ex form);
 
 /* The derivative of the function e with respect to its argument i. */
 nh_ex nh_diff_argument(nh_dag *dag, nh_ex e, size_t i);
