@@ -24,7 +24,7 @@ nh_ex nh_current_plain(const nh_analysis *result, const nh_current *f)
 {
     const nh_model *model = result->question->model;
     if (is_minus(f)) return nh_neg(model->dag, f->phi);
-    if (f->series || (*f->meaning && strncmp(f->meaning, multiple, strlen(multiple)))) return f->phi;
+    if (f->series || f->symbol || (*f->meaning && strncmp(f->meaning, multiple, strlen(multiple)))) return f->phi;
     if (!*f->meaning) {
         int sign = nh_current_noether(result, f).sign;
         if (sign) return sign < 0 ? nh_neg(model->dag, f->phi) : f->phi;
