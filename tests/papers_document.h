@@ -101,7 +101,8 @@ static void split(document *d)
         text_line *last = d->lines ? &d->line[d->lines - 1] : NULL;
         if (!*one || !indent) {
             if (*one) heading = one;
-            if (sscanf(one, "Stage %d", &stage) != 1 && !strncmp(one, "Conserved", 9)) stage = 0;
+            const char *inside = !strncmp(one, "In", 2) ? strstr(one, ", stage ") : NULL; /* of "In one step, stage 3: ..", "Instead of one step, stage 1: .." */
+            if (sscanf(inside ? inside + 2 : one, inside ? "stage %d" : "Stage %d", &stage) != 1 && !strncmp(one, "Conserved", 9)) stage = 0;
             if (last) last = NULL;
             if (!*one || d->lines == most_lines) continue;
             d->line[d->lines++] = (text_line){heading, "", stage}; /* so that nothing continues what stands above */
@@ -376,7 +377,8 @@ static const char *place_of(const char *section, int *stage)
 
 static bool in_section(const text_line *l, const char *heading, int stage)
 {
-    return !strncmp(l->heading, heading, strlen(heading)) && (!stage || l->stage == stage) && *l->text;
+    bool same = !strncmp(l->heading, heading, strlen(heading)) || (!strcmp(heading, "Stage") && !strncmp(l->heading, "In", 2) && strstr(l->heading, ", stage "));
+    return same && (!stage || l->stage == stage) && *l->text;
 }
 
 static bool has_section(const document *d, const char *section)
@@ -443,13 +445,20 @@ static const char *words_in(const document *d, const char *words)
     return at;
 }
 
+/* Where the stage begins: at "Stage 2", or "In one step, stage 2: "; NULL: there is none. */
+static const char *beginning_of(const document *d, int stage)
+{
+    char head[40], inside[40];
+    snprintf(head, sizeof head, "Stage %d", stage);
+    snprintf(inside, sizeof inside, ", stage %d: ", stage);
+    const char *at = strstr(d->flat, head);
+    return at ? at : strstr(d->flat, inside);
+}
+
 /* The number behind the words; of a stage, unless 0. */
 static double number_behind(const document *d, int stage, const char *words)
 {
-    char head[40];
-    const char *from = d->flat;
-    snprintf(head, sizeof head, "Stage %d", stage);
-    if (stage) from = strstr(from, head);
+    const char *from = stage ? beginning_of(d, stage) : d->flat;
     const char *at = from ? strstr(from, words) : NULL;
     return at ? strtod(at + strlen(words), NULL) : NAN;
 }

@@ -32,10 +32,8 @@ static chained read_chain(const document *d)
     int stage = 0;
     for (size_t i = 0; i < d->lines; i++)
         if (in_section(&d->line[i], heading_of("chain"), 0)) stage = d->line[i].stage;
-    char head[40];
-    snprintf(head, sizeof head, "Stage %d", stage);
-    const char *at = strstr(d->flat, head);
-    if (!stage || !at || !(at = strstr(at, "Chain of subgroups block 0"))) stop("no chain", head);
+    const char *at = stage ? beginning_of(d, stage) : NULL;
+    if (!at || !(at = strstr(at, "Chain of subgroups block 0"))) stop("no chain", d->flat);
     for (at += strlen("Chain of subgroups "); !strncmp(at, "block ", 6); at += strspn(at, "; ")) {
         size_t block = (size_t)atoi(at + 6);
         at += 7;

@@ -350,8 +350,8 @@ Test(symmetry_space, a_turn_maps_currents_of_the_sleigh_to_each_other, PLAIN_ONL
     char *json = read_here(&p, "r.json");
     cJSON *root = cJSON_Parse(json);
     cr_expect_eq(number_in(root, "equation_symmetries", "dim_point"), 5);
-    cr_expect_str_eq(line_of(root, "S_5(Phi2)"), "-Phi3/k");
-    cr_expect_str_eq(line_of(root, "S_5(Phi3)"), "Phi2/k");
+    cr_expect_str_eq(line_of(root, "S_5(Phi2)"), "-Phi4/k");
+    cr_expect_str_eq(line_of(root, "S_5(Phi4)"), "Phi2/k");
     cr_expect_str_eq(line_of(root, "S_4(Phi1)"), "-2*Phi1");
     cJSON_Delete(root);
     free(json);

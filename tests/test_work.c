@@ -159,19 +159,22 @@ Test(work, the_discrete_problem_alone, PLAIN_ONLY)
 {
     nh_benchmark *c = compare("systems/spherical_pendulum.yaml", NULL, 1, 4, true);
     size_t known = 0, samples = 0;
+    bool grids = false; /* others than Sobol points */
     cr_expect(c->count == 0 && c->fits > 20 && c->derivatives == 0, "%zu, %zu", c->count, c->fits);
     for (size_t i = 0; i < c->fits; i++) {
         const nh_fitted *m = &c->fit[i];
-        cr_expect(m->degree >= 1 && !strcmp(m->grid, "sobol"));
+        cr_expect(m->degree >= 1 && strstr("sobol halton tensor sparse", m->grid), "%s", m->grid);
+        grids |= strcmp(m->grid, "sobol") != 0;
         samples += i == 0 || (m->degree == c->fit[0].degree && m->samples != c->fit[i - 1].samples);
         if (!m->right || !isfinite(m->error)) continue;
         known++;
         cr_expect(m->error < 10 * m->expected, "%zu functions, %zu samples: %g, expected %g", m->functions, m->samples, m->error, m->expected);
     }
-    cr_expect(known > 10 && samples == 5, "%zu, %zu", known, samples);
+    cr_expect(known > 10 && samples >= 5, "%zu, %zu", known, samples);
     nh_benchmark_row row[NH_BENCHMARK_ROWS];
     cr_expect_eq(nh_benchmark_rows(c, c->arena, row), 1u);
     cr_expect(row[0].fit && row[0].panels == 3);
+    cr_expect(grids);
     nh_benchmark_free(c);
 }
 

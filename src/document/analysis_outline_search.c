@@ -138,7 +138,8 @@ static void grid(nh_pen *p, const nh_analysis *result)
                   {g->degenerate, "near a singularity"},
                   {g->outside, "outside of the domain"}};
     if (!g->used) return;
-    nh_pen_fact_begin(p, "grid");
+    nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+    nh_pen_fact_begin(p, "Grid");
     nh_pen_say(p, "%s%s", q->grid.kind == NH_GRID_FILE ? "points of " : "",
                q->grid.kind == NH_GRID_FILE ? q->grid.path : nh_sample_grid_word(q->grid.kind));
     if (g->variables) nh_pen_say(p, " in %zu variables", g->variables);
@@ -148,11 +149,12 @@ static void grid(nh_pen *p, const nh_analysis *result)
     for (size_t i = 0; i < g->branches; i++)
         nh_pen_say(p, "%s%s: %zu points", i ? ", " : "; where ", g->branch[i].name, g->branch[i].points);
     nh_pen_close(p, NH_PEN_FACT);
-    nh_pen_fact_begin(p, "domain");
+    nh_pen_fact_begin(p, "Domain");
     for (size_t j = 0; j < 1 + q->model->m + q->model->n; j++)
         nh_pen_say(p, "%s%s in [%.4g, %.4g]", j ? ", " : "", nh_name_of(q->model->dag, c->symbol[j]), c->low[j],
                    c->high[j]);
     nh_pen_close(p, NH_PEN_FACT);
+    nh_pen_close(p, NH_PEN_FACTS);
 }
 
 void nh_analysis_write_search(nh_pen *p, const nh_analysis *result)

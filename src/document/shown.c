@@ -80,7 +80,7 @@ static void first_screen(const nh_shown *s, const nh_run *run, nh_pen_style styl
     static const unsigned order[] = {NH_OVERVIEW_VELOCITIES, NH_OVERVIEW_EQUATIONS, NH_OVERVIEW_LAGRANGIAN,
                                      NH_OVERVIEW_FIELDS,     NH_OVERVIEW_FORCES,    NH_OVERVIEW_INERTIA,
                                      NH_OVERVIEW_MULTIPLIERS};
-    enum { tail = 4 };
+    enum { tail = 6 }; /* lines: what is too long, and how to see it */
     unsigned sections = 0;
     nh_sheet *all = overview(s);
     nh_text left, text;
