@@ -17,7 +17,9 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < n; i++) {
         row o = compare_file(folder, name[i], seed, 0);
         char cell[500];
-        snprintf(cell, sizeof cell, "%.200s<br>![its motion](catalogue/%.200s.svg)", name[i], name[i]);
+        snprintf(cell, sizeof cell, "docs/catalogue/%.200s.svg", name[i]);
+        bool drawn = access(cell, R_OK) == 0; /* by `make pictures` */
+        snprintf(cell, sizeof cell, drawn ? "%.200s<br>![its motion](catalogue/%.200s.svg)" : "%.200s", name[i], name[i]);
         print_row(cell, &o);
         missing += o.missing;
         excused += o.excused;

@@ -41,7 +41,7 @@ static void heading(const char *words, const char *css, double y, nh_text *out)
 
 static double put_row(nh_benchmark_row *row, size_t number, double wide, double y, nh_text *out)
 {
-    char id[24];
+    char id[48];
     for (size_t k = 0; k < row->panels; k++) row->panel[k].bare = true;
     heading(row->title, "row", y + title_line, out);
     y += title_line + 8;
