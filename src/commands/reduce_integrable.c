@@ -132,7 +132,7 @@ static void take(nh_reduction *r, const nh_action *all, const double *c)
     new.value = shorter(r, nh_simplify(d, new.value));
     if (!new.proof.proved || nh_is_zero(d, new.value) || known(r, new.value)) return;
     nh_momentum *list = nh_arena_alloc(k->arena, (r->momenta.count + 1) * sizeof *list);
-    memcpy(list, r->momenta.momentum, r->momenta.count * sizeof *list);
+    if (r->momenta.count) memcpy(list, r->momenta.momentum, r->momenta.count * sizeof *list);
     list[r->momenta.count++] = new;
     r->momenta.momentum = list;
 }

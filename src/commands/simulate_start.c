@@ -100,6 +100,16 @@ static const char *words_of_point(const nh_simulation *s, const double *z)
     return out;
 }
 
+/* Which velocities are the chart's: the constraints determine the others, also where its formulas lose digits. */
+static bool *independent_velocities(const nh_simulation *s)
+{
+    const nh_model *model = s->model;
+    bool *own = nh_arena_alloc(s->arena, (model->m + 1) * sizeof *own);
+    for (size_t i = 0; i < model->m; i++)
+        for (size_t j = 0; j < model->n; j++) own[i] |= model->system->coordinate[i].v == model->chart->w[j];
+    return own;
+}
+
 /* A state that satisfies the constraints where none is given: the chart's first probe, rounded where that is
  * possible. */
 static bool choose_initial(nh_simulation *s, nh_state *initial)
@@ -120,6 +130,7 @@ static bool choose_initial(nh_simulation *s, nh_state *initial)
         if (!nh_first_state(model, z, initial->v)) return false;
     }
     s->begin = words_of_point(s, z);
+    if (!model->chart->quasi) initial->given = independent_velocities(s);
     return true;
 }
 
