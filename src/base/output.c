@@ -47,7 +47,7 @@ int nh_output_remove(const char *path) { return unlink(path) && errno != ENOENT 
 
 static void forget(nh_leaving *leaving) { unlink(((nh_output_file *)leaving)->temporary); }
 
-/* A new file beside `path`, with the permissions that the user's mask leaves; -1: none. */
+/* Makes a new file in the folder of `path`, with the permissions of the user's mask; returns -1 if that fails. */
 static int create_beside(const char *path, char *name)
 {
     static atomic_uint made;

@@ -96,7 +96,7 @@ typedef struct {
     nh_model *other;
     nh_state initial;
     nh_reference_solution solution;
-    size_t formulations, candidates, refusals; /* refusals: room for so many */
+    size_t formulations, candidates, refusals; /* refusals: the capacity of out->refusal */
     /* formulations; the reduced ones come last */
     nh_formulation formulation[NH_BENCHMARK_FORMULATIONS + NH_CHART_REDUCED];
     nh_reduction *reduction;

@@ -63,7 +63,7 @@ static double first_value(const maker *w, nh_ex symbol)
     return 0;
 }
 
-/* Does it stand in a logarithm, or below a fraction bar, that is singular where the symbol is zero? */
+/* Does e have a logarithm or a denominator that is singular where the symbol is zero? */
 static bool is_singular_at_zero(nh_dag *d, nh_ex e, nh_ex symbol)
 {
     if (!nh_depends(d, e, symbol)) return false;

@@ -47,8 +47,8 @@ static nh_curve curve_of(const nh_html_writer *w, const nh_time_series *c, const
                       .y_stride = line->stride * every};
 }
 
-/* Lines of one kind, in plots of at most so many curves.  Without the first `skip` lines of the kind, `take` are
- * shown. */
+/* Plots of one kind of lines.  The first `skip` lines of the kind are left out; the next `take` are drawn, each plot
+ * with a limited number of curves. */
 static void lines(nh_html_writer *w, const nh_time_series *c, nh_track_kind kind, size_t skip, size_t take,
                   const char *what, const char *axis, const char *caption)
 {

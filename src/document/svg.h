@@ -22,8 +22,8 @@ typedef struct {
     bool dots, marks;      /* points instead of a line; points on the line */
     const double *heading; /* NULL, or an angle per point with y_stride, which marks at equal steps show */
     /* Of a comparison.  `style`: how the mark of each point is drawn, in a shape of its own for every curve, with `dots`
-     * without a line; `low`, `high`: the spread of each y.  With NULL: neither.  `faint`: small grey points without a name, behind the others;
-     * `front`: a broad line behind them; `expected`: a dashed grey line. */
+     * without a line; `low`, `high`: the spread of each y; NULL: none.  `faint`: small grey points without a
+     * name, behind the others; `front`: a broad line behind them; `expected`: a dashed grey line. */
     const nh_mark_style *style;
     const double *low, *high;
     bool faint, front, expected;

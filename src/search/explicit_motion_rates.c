@@ -162,7 +162,7 @@ static bool solve_linear(nh_explicit_curve *c, size_t u, nh_ex A, nh_ex B, bool 
     return true;
 }
 
-/* Do so many states that are not solved stand in one of the two only that their quotient depends on more than one? */
+/* Does own/speed depend on more than one unsolved state?  Yes, if several of them occur in one of the two alone. */
 static bool depends_on_many(const nh_explicit_curve *c, nh_ex own, nh_ex speed)
 {
     enum { few = 3 }; /* some may go when it is simplified, which takes long */

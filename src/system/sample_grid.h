@@ -3,8 +3,7 @@
  * Tensor: the zeros of Chebyshev's polynomial T_k, cos((2 i + 1) pi/(2 k)), in each of d variables: k^d points.
  * Sparse [Smolyak1963], [NovakRitter1996]: the extrema of Chebyshev's polynomials are nested, 1, 3, 5, 9, 17, .. of
  * them; level i adds s_0 = 1, s_1 = 2, s_i = 2^(i-1) nodes, and the grid of level l is the union of the products of
- * what the
- * levels i_1 + .. + i_d <= l add: sum of s_(i_1) .. s_(i_d) points. */
+ * what the levels i_1 + .. + i_d <= l add: sum of s_(i_1) .. s_(i_d) points. */
 #ifndef NH_SAMPLE_GRID_H
 #define NH_SAMPLE_GRID_H
 
