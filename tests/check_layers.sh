@@ -8,7 +8,7 @@ trap 'rm -f "$offences"' EXIT
 
 # ---- a file includes its own folder's or lower folders' headers ----
 awk '
-    BEGIN { n = split("base graph evaluate exact system geometry integrals count classify motion reduction problem search commands document library cli", name, " "); for (i = 1; i <= n; i++) level[name[i]] = i }
+    BEGIN { n = split("base graph evaluate exact system geometry integrals count classify motion reduction problem search absence commands document library cli", name, " "); for (i = 1; i <= n; i++) level[name[i]] = i }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
         split(FILENAME, path, "/")
         split($0, quoted, "\"")

@@ -61,6 +61,7 @@ typedef struct nh_request {
     bool equations; /* of analyze, verify and reduce: writes out the objects of the theory */
     /* of analyze: does not search; rows of the search (search/staged_search.c) that a developer leaves out */
     bool model_only;
+    bool absence;      /* of analyze: all planes and engines for the question whether there is any other integral */
     const char *route; /* "both", "fields" or "currents": what is fitted; NULL: that of the analysis file */
     uint64_t left_out;
     /* of verify (and one more column of a motion, Phi, for its page); "Z0=1; phi=phi'"; of verify, classify, scan,

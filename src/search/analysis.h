@@ -272,7 +272,8 @@ struct nh_analysis {
     size_t integrals;
     size_t *integral; /* list->found[integral[i]] */
     nh_completeness completeness[NH_COMPLETENESS_KINDS];
-    nh_count_memory *counted; /* while the search goes on */
+    nh_count_memory *counted;   /* while the search goes on */
+    struct nh_absence *absence; /* is there any other integral (absence/absence.h); NULL: it was not asked */
     nh_verdict verdict;
     nh_search search;      /* the verdict cannot be NONE where the search was cut */
     nh_observables tracks; /* their values are in validation->watch, row by row */

@@ -1,0 +1,23 @@
+/* monodromy: how far the monodromy of linear equations moves a general vector, in ball arithmetic.
+ * [docs/method.md, "No other integral"] */
+#ifndef NH_MONODROMY_H
+#define NH_MONODROMY_H
+
+#include "absence/linear_equation.h"
+
+typedef struct {
+    size_t size, rank;    /* of the direct sum; certified: an orbit of the group has at least this dimension */
+    const char *obstacle; /* rank < size: the first, in words; else NULL */
+    long bits;
+    size_t singular, steps, words; /* points, Taylor steps, elements of the Lie algebra used */
+    /* loops are closed paths in the x-plane without the singular points: regular or irregular, the rank is that of the
+     * monodromy group alone */
+    const char **trace; /* per loop and block: of the monodromy, 20 digits; blocks x singular, row by row */
+} nh_monodromy;
+
+/* The direct sum of `blocks` equations, continued along the same loops; in the arena. */
+nh_monodromy *nh_monodromy_of(nh_arena *arena, size_t blocks, const nh_linear_equation *block, long bits);
+/* The same with more bits, to 4 times as many, until the rank is full. */
+nh_monodromy *nh_monodromy_try(nh_arena *arena, size_t blocks, const nh_linear_equation *block);
+
+#endif
