@@ -22,13 +22,14 @@ static bool feels(nh_dag *dag, nh_ex rate, nh_ex symbol)
     return nh_depends(dag, rate, symbol) && nh_normal_is_zero(dag, nh_diff(dag, rate, symbol), longest_zero) != NH_ZERO;
 }
 
-/* Leaves out, again and again, coordinates that no remaining rate depends on. */
-static void leave_out(nh_closed_shape *shape)
+/* Leaves out, again and again, coordinates that neither a remaining rate nor one of n functions depends on. */
+static void leave_out(nh_closed_shape *shape, size_t n, const nh_ex *function)
 {
     nh_dag *dag = shape->model->dag;
     for (size_t i = 0; i < shape->coordinates;) {
         bool used = false;
         for (size_t j = 0; j < shape->count && !used; j++) used = feels(dag, shape->rate[j], shape->letter[i]);
+        for (size_t j = 0; j < n && !used; j++) used = feels(dag, function[j], shape->letter[i]);
         if (used) {
             i++;
             continue;
@@ -117,6 +118,11 @@ static const char *obstacle_of(const nh_closed_shape *shape)
 
 nh_closed_shape *nh_closed_shape_of(nh_arena *arena, const nh_model *model)
 {
+    return nh_closed_shape_keeping(arena, model, 0, NULL);
+}
+
+nh_closed_shape *nh_closed_shape_keeping(nh_arena *arena, const nh_model *model, size_t n, const nh_ex *function)
+{
     nh_closed_shape *shape = nh_arena_alloc(arena, sizeof *shape);
     size_t all = model->m + model->n;
     NH_LIST(node);
@@ -135,7 +141,7 @@ nh_closed_shape *nh_closed_shape_of(nh_arena *arena, const nh_model *model)
         shape->obstacle = "the equations are too long";
         return shape;
     }
-    leave_out(shape);
+    leave_out(shape, n, function);
     shape->obstacle = obstacle_of(shape);
     for (size_t i = 0; i < shape->coordinates && !shape->obstacle; i++)
         shape->angle[i] = is_angle(model->dag, shape->count, shape->rate, shape->letter[i]);

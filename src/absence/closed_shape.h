@@ -16,5 +16,7 @@ typedef struct {
 
 /* In the arena. */
 nh_closed_shape *nh_closed_shape_of(nh_arena *arena, const nh_model *model);
+/* The same with the coordinates on which n functions of the chart depend, such as the energy of a falling body. */
+nh_closed_shape *nh_closed_shape_keeping(nh_arena *arena, const nh_model *model, size_t n, const nh_ex *function);
 
 #endif

@@ -32,29 +32,46 @@ static void variable_rate(nh_normal_work *work, const nh_curve_element *rate)
     nh_curve_field_element_clear(&factor);
 }
 
+/* Is w' what the curve says, (w^2)'/(2 w) x'?  It is, if the curve is a level of an integral. */
+static bool moves_along(const nh_normal_work *work, const nh_curve_element *velocity_rate)
+{
+    nh_curve_element w;
+    nh_curve_field_element_init(&w);
+    nh_curve_field_set_w(&w);
+    nh_curve_field_derivative(&work->field, &w, &w);
+    nh_curve_field_mul(&work->field, &w, &w, &work->rate);
+    bool good = nh_curve_field_equal(&w, velocity_rate);
+    nh_curve_field_element_clear(&w);
+    return good;
+}
+
 /* B and the rate. */
 static bool normal_block(nh_normal_work *work)
 {
-    size_t n = work->normals, entries = n * n;
+    enum { others = 2 }; /* the rates on the plane itself */
+    size_t n = work->normals, entries = n * n, all = entries + others;
     const nh_plane *plane = work->plane;
-    nh_ex *e = nh_alloc_array(entries + 1, sizeof *e);
-    nh_curve_element *value = nh_curve_field_elements(entries + 1);
-    nh_curve_state *state = nh_alloc_array(entries + 1, sizeof *state);
-    const char **why = nh_alloc_array(entries + 1, sizeof *why);
+    nh_ex *e = nh_alloc_array(all, sizeof *e);
+    nh_curve_element *value = nh_curve_field_elements(all);
+    nh_curve_state *state = nh_alloc_array(all, sizeof *state);
+    const char **why = nh_alloc_array(all, sizeof *why);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++) e[i * n + j] = nh_diff(work->dag, plane->rate[2 + i], plane->y[2 + j]);
     e[entries] = plane->rate[0];
-    values_of(work, entries + 1, e, value, state, why);
+    e[entries + 1] = plane->rate[1];
+    values_of(work, all, e, value, state, why);
     bool good = true;
-    for (size_t k = 0; k <= entries && good; k++)
+    for (size_t k = 0; k < all && good; k++)
         if (state[k] != NH_CURVE_FINE) good = nh_normal_equation_refuse(work, why[k]);
     for (size_t k = 0; k < entries && good; k++) nh_curve_field_set(&work->block[k], &value[k]);
     if (good) variable_rate(work, &value[entries]);
     if (good && nh_curve_field_is_zero(&work->rate)) good = nh_normal_equation_refuse(work, "nothing moves");
+    if (good && !moves_along(work, &value[entries + 1]))
+        good = nh_normal_equation_refuse(work, "the integral does not hold on the plane");
     nh_free(e);
     nh_free(state);
     nh_free(why);
-    nh_curve_field_elements_free(value, entries + 1);
+    nh_curve_field_elements_free(value, all);
     return good;
 }
 
