@@ -269,6 +269,25 @@ Test(normal_equation, integrals_hold_directions)
     absence_case_clear(&c);
 }
 
+Test(normal_equation, many_valued)
+{
+    /* near the motions of a pendulum: differentials that are functions on the curve do not make an integral single-valued */
+    absence_case c = absence_case_text("name: m\ncoordinates: [th, y]\nlagrangian: (th'^2 + y'^2)/2 + cos(th)\n");
+    static const struct {
+        const char *integral;
+        bool one_value;
+    } of[] = {{"y'", true}, {"y' + y'^2*th", false}, {"y' + y'^2*cos(th)", true}, {"y' + log(2 + y')", false}, {"exp(y')", true}, {"y' + y'^2*cos(th/2)", false}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        nh_normal_equation *e = equation_with(&c, "y' = 0", 1, &of[i].integral);
+        cr_assert_null(e->obstacle, "%s", e->obstacle);
+        cr_expect_eq(e->known, 2);
+        cr_expect_eq(e->single_valued, of[i].one_value, "%s", of[i].integral);
+        cr_expect_eq(e->dimension, 0);
+        nh_normal_equation_clear(e);
+    }
+    absence_case_clear(&c);
+}
+
 Test(normal_equation, two_integrals_at_once)
 {
     /* three oscillators without a relation: each energy but that of the motion has differential 0; momenta of a free direction hold one each */

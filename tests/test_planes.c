@@ -101,6 +101,13 @@ Test(planes, single_coordinates)
     expect_planes("name: one\ncoordinates: [x]\nlagrangian: x'^2/2 - x^4\n", 1, (const char *[]){"all motions"});
 }
 
+Test(planes, three_alike)
+{
+    /* a ring of three: all alike; two alike and one at rest would move it */
+    expect_planes("name: r\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - x^4 - y^4 - z^4 - (x - y)^3*(x + 3*y) - (y - z)^3*(y + 3*z) - (z - x)^3*(z + 3*x)\n",
+                  1, (const char *[]){"y = x, z = x"});
+}
+
 Test(planes, two_angles)
 {
     /* equal pendulums on springs: both together, against each other, and one half a turn behind */

@@ -9,6 +9,7 @@
 
 #include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 
 /* Values of derivatives that are given as expressions of the plane's letters. */
 static void values_of(const nh_normal_work *work, size_t n, nh_ex *e, nh_curve_element *value, nh_curve_state *state,
@@ -137,6 +138,29 @@ static bool is_constant(const nh_normal_work *work, const nh_curve_element *eta)
     return good;
 }
 
+/* Is it known that the integral has one value near the curve, up to signs of roots? */
+static bool has_one_value(const nh_normal_work *work, size_t k)
+{
+    NH_LIST(call);
+    nh_ex F = work->integral[k];
+    bool good = !work->plane->angle || nh_closed_shape_periodic(work->dag, 1, &F, work->plane->y[0]);
+    for (size_t i = nh_functions_in(work->dag, F, &call); i-- > 0;) {
+        nh_function f = nh_function_of(work->dag, call[i]);
+        good = good && (f == NH_SIN || f == NH_COS || f == NH_TAN || f == NH_EXP || f == NH_SINH || f == NH_COSH ||
+                        f == NH_TANH || f == NH_PI);
+    }
+    return good;
+}
+
+/* The integral is used. */
+static void use(nh_normal_work *work, size_t k)
+{
+    nh_normal_equation *out = work->out;
+    out->used[out->known++] = k;
+    out->generic = out->generic && work->known->generic[k];
+    out->single_valued = out->single_valued && has_one_value(work, k);
+}
+
 /* The integrals' covectors; those that vanish, or are no elements of K, are not used. */
 static bool hold(nh_normal_work *work)
 {
@@ -147,8 +171,7 @@ static bool hold(nh_normal_work *work)
     nh_curve_field_element_init(&lambda);
     good = slopes_of(work, work->determines, energy) && nh_curve_field_inv(&work->field, &energy[0], &energy[0]);
     if (!good) nh_normal_equation_refuse(work, "the differential of the integral has no value on the plane");
-    out->used[out->known++] = work->determines;
-    out->generic = out->generic && work->known->generic[work->determines];
+    use(work, work->determines);
     for (size_t k = 0; k < work->known->count && good; k++) {
         if (k == work->determines) continue;
         bool usable = slopes_of(work, k, slope);
@@ -156,12 +179,8 @@ static bool hold(nh_normal_work *work)
         for (size_t j = 1; usable && j < n; j++) nh_curve_field_submul(&work->field, &slope[j], &lambda, &energy[j]);
         if (usable && !is_constant(work, slope + 1))
             good = nh_normal_equation_refuse(work, "an integral does not hold near the plane");
-        if (good && usable && join(work, slope + 1)) {
-            out->used[out->known++] = k;
-            out->generic = out->generic && work->known->generic[k];
-        } else {
-            out->unused++;
-        }
+        if (good && usable && join(work, slope + 1)) use(work, k);
+        else out->unused++;
     }
     nh_curve_field_element_clear(&lambda);
     nh_curve_field_elements_free(energy, n);

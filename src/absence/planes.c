@@ -1,7 +1,7 @@
 /* planes: candidates are rejected by numbers, and proved by zero tests.
  *
  *     coordinates that rest: 0; angles: 0, pi, pi/2, -pi/2
- *     moving:                one coordinate x, or two with y = x, -x (angles: also x + pi, pi - x)
+ *     moving:                one coordinate x; two with y = x, -x (angles: also x + pi, pi - x); more with y = x, -x
  *     velocity:              w with x' = alpha(x) w on the plane; the others 0 */
 #include "absence/planes.h"
 
@@ -397,6 +397,51 @@ static void pair(search *s, size_t i, size_t j)
     nh_free(fixed);
 }
 
+/* The next pattern of 0, 1, -1 per coordinate, as digits of a number in base 3. */
+static bool next_pattern(int *sign, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        sign[i] = sign[i] == 0 ? 1 : sign[i] == 1 ? -1 : 0;
+        if (sign[i]) return true;
+    }
+    return false;
+}
+
+/* The candidate of a pattern; false where fewer than three move, the first backwards, or one has no velocity. */
+static bool begin_pattern(search *s, const int *sign)
+{
+    enum { fewest = 3 };
+    const nh_closed_shape *shape = s->shape;
+    size_t n = shape->coordinates, first = n, moving = 0;
+    for (size_t i = n; i-- > 0;) {
+        if (!sign[i]) continue;
+        if (velocity_of(shape, i) == shape->count) return false;
+        first = i;
+        moving++;
+    }
+    if (moving < fewest || sign[first] < 0) return false;
+    begin_candidate(s, first, velocity_of(shape, first));
+    for (size_t i = 0; i < n; i++)
+        if (sign[i]) s->at.coefficient[i] = s->at.coefficient[velocity_of(shape, i)] = sign[i];
+    return true;
+}
+
+/* Three coordinates and more that move alike. */
+static void groups(search *s)
+{
+    enum { most_coordinates = 5 };
+    const nh_closed_shape *shape = s->shape;
+    size_t n = shape->coordinates;
+    if (n > most_coordinates) return;
+    int sign[most_coordinates] = {0};
+    bool fixed[most_coordinates];
+    while (next_pattern(sign, n)) {
+        if (!begin_pattern(s, sign)) continue;
+        for (size_t i = 0; i < n; i++) fixed[i] = sign[i] != 0;
+        try_places(s, fixed, most_pair_places);
+    }
+}
+
 size_t nh_planes_find(nh_arena *arena, const nh_closed_shape *shape, nh_plane **out)
 {
     const nh_model *model = shape->model;
@@ -415,6 +460,7 @@ size_t nh_planes_find(nh_arena *arena, const nh_closed_shape *shape, nh_plane **
     single(&s);
     for (size_t i = 0; i < shape->coordinates; i++)
         for (size_t j = i + 1; j < shape->coordinates; j++) pair(&s, i, j);
+    groups(&s);
     nh_free(s.in);
     nh_free(s.out);
     nh_free(s.at.coefficient);
