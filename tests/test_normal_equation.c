@@ -269,6 +269,21 @@ Test(normal_equation, integrals_hold_directions)
     absence_case_clear(&c);
 }
 
+Test(normal_equation, multiples_of_the_energy)
+{
+    /* oblique letters, so that the energy has a differential across the plane: d(E (1 + y')) = dE + h dy' there */
+    absence_case c = absence_case_text("name: o\ncoordinates: [x, y]\nlagrangian: ((x' + 2*y')^2 + y'^2)/2 - (x + 2*y)^4\n");
+    const char *further[] = {"E*(1 + y')", "E^2*(1 + 3*y')"};
+    nh_normal_equation *e = equation_with(&c, "y = 0", 2, further);
+    cr_assert_null(e->obstacle, "%s", e->obstacle);
+    cr_expect_eq(e->known, 2);
+    cr_expect_eq(e->unused, 1);
+    cr_assert_eq(e->dimension, 1);
+    expect_entry(&e->block[0], 0, 0, "0"); /* y' is held, so that y does not change */
+    nh_normal_equation_clear(e);
+    absence_case_clear(&c);
+}
+
 Test(normal_equation, many_valued)
 {
     /* near the motions of a pendulum: differentials that are functions on the curve do not make an integral single-valued */
