@@ -93,7 +93,7 @@ Test(kovacic_families, the_table_of_morales_ruiz_and_ramis)
         qsort(all, count, sizeof *all, by_number);
         for (size_t n = 0; n < count; n++) {
             if (n && all[n] == all[n - 1]) continue;
-            if (!sweep_tries(pairs++, 5, 40)) continue;
+            if (!sweep_tries(pairs++, 1, 10)) continue;
             const ratio s[3] = {{1, k * k}, {1, 4}, {900 * (k - 2) * (k - 2) + (k < 0 ? -1 : 1) * all[n], 3600 * k * k}};
             hypergeometric(r, s);
             const nh_kovacic *out = decide(r);
@@ -175,9 +175,9 @@ static void count_in(tally *t, const fmpz_poly_q_t equation, bool solvable)
     if (out->group == NH_GROUP_UNDECIDED) cr_log_info("undecided: (%s)/(%s): %s", out->r_num, out->r_den, out->obstacle);
 }
 
-enum { each = 25 };
+enum { each = 25, each_whole = 2000 };
 
-static size_t times_of_each(void) { return sweep_whole() ? each : sweep_sanitized() ? 2 : each / 2; }
+static size_t times_of_each(void) { return sweep_whole() ? each_whole : sweep_sanitized() ? 3 : each; }
 
 Test(kovacic_families, reducible_equations_are_never_called_irreducible)
 {
