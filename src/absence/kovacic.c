@@ -120,8 +120,9 @@ static nh_group group_of(nh_kovacic_problem *problem, nh_kovacic *out, ulong aft
 {
     if (!nh_kovacic_degrees(problem, out)) return NH_GROUP_UNDECIDED;
     bounds(problem, out);
-    if (!nh_kovacic_prime_find(problem, after)) {
-        if (nothing_possible(out)) return NH_GROUP_SL2;
+    bool needed = !nothing_possible(out);
+    if (!nh_kovacic_prime_find(problem, after, needed)) {
+        if (!needed) return NH_GROUP_SL2;
         out->obstacle = "no prime was found modulo which the poles and exponents are residues";
         return NH_GROUP_UNDECIDED;
     }
