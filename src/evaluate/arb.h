@@ -13,6 +13,7 @@
 #include <flint/acb_elliptic.h>
 #include <flint/acb_hypgeom.h>
 #include <flint/acb_poly.h>
+#include <flint/arb_fmpz_poly.h>
 #else
 #include <arb.h>
 #include <arb_mat.h>
@@ -22,6 +23,7 @@
 #include <acb_elliptic.h>
 #include <acb_hypgeom.h>
 #include <acb_poly.h>
+#include <arb_fmpz_poly.h>
 #endif
 
 #endif
