@@ -38,7 +38,7 @@ typedef enum {
 typedef struct nh_absence {
     nh_absence_verdict verdict;
     bool everything; /* all planes and engines were asked for */
-    const nh_shape *shape;
+    const nh_closed_shape *shape;
     size_t known;          /* independent integrals of the shape that are found and single-valued */
     size_t *known_current; /* their indices in the analysis's list */
     size_t many_valued;    /* found, but not used: many-valued, or in time */

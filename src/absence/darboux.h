@@ -4,7 +4,7 @@
 
 #include <flint/fmpq.h>
 
-#include "absence/shape.h"
+#include "absence/closed_shape.h"
 
 typedef struct {
     const char *point;      /* "c = (1, 0)": V'(c) = c, up to a factor */
@@ -25,6 +25,6 @@ typedef struct {
 /* Is the rational lambda one that the theorem of Morales-Ruiz and Ramis allows for degree k? */
 bool nh_darboux_allowed(long k, const fmpq_t lambda);
 
-nh_darboux *nh_darboux_of(nh_arena *arena, const nh_shape *shape);
+nh_darboux *nh_darboux_of(nh_arena *arena, const nh_closed_shape *shape);
 
 #endif

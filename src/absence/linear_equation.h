@@ -8,6 +8,7 @@
 
 #include <flint/fmpq_poly.h>
 #include <flint/fmpz_poly.h>
+#include <stdbool.h>
 
 #include "base/memory.h"
 
@@ -26,8 +27,8 @@ void nh_linear_equation_set(nh_linear_equation *equation, size_t i, size_t j, co
 /* Cancels what all entries and den have in common. */
 void nh_linear_equation_reduce(nh_linear_equation *equation);
 
-/* y'' + P y' + Q y = 0 for the first unknown of an equation of size 2, or for the second where the first does not feel
- * it; P, Q as quotients.  False: the matrix is triangular. */
+/* y'' + P y' + Q y = 0 for the first unknown of an equation of size 2; P, Q as reduced quotients.  False: the size is
+ * not 2, or the matrix is triangular. */
 bool nh_linear_equation_second_order(const nh_linear_equation *equation, fmpq_poly_t p_num, fmpq_poly_t p_den,
                                      fmpq_poly_t q_num, fmpq_poly_t q_den);
 /* r = P^2/4 + P'/2 - Q, reduced, of y'' = r y. */

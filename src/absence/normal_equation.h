@@ -34,7 +34,7 @@ typedef struct {
 } nh_known_integrals;
 
 /* The equation at the n-th level that is tried (n = 0, 1, ..); the caller clears it by nh_normal_equation_clear. */
-nh_normal_equation *nh_normal_equation_of(nh_arena *arena, const nh_shape *shape, const nh_plane *plane,
+nh_normal_equation *nh_normal_equation_of(nh_arena *arena, const nh_closed_shape *shape, const nh_plane *plane,
                                           const nh_known_integrals *known, size_t n);
 void nh_normal_equation_clear(nh_normal_equation *equation);
 

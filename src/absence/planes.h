@@ -2,10 +2,10 @@
 #ifndef NH_ABSENCE_PLANES_H
 #define NH_ABSENCE_PLANES_H
 
-#include "absence/shape.h"
+#include "absence/closed_shape.h"
 
-/* The letters are z = T y + c with T a matrix of rationals: y[0] the moving coordinate, y[1] the velocity that moves it,
- * y[2..] normal, 0 on the plane.  T is a permutation but where x = y or x = -y is a plane. */
+/* The letters are z = T y + c with T a matrix of rationals: y[0] the moving coordinate, y[1] the velocity that moves
+ * it, y[2..] normal, 0 on the plane.  T is a permutation but where x = y or x = -y is a plane. */
 typedef struct {
     nh_ex *y;          /* symbols of the new letters; y[0] keeps the coordinate's symbol where it can */
     nh_ex *letter;     /* each old letter in terms of y */
@@ -17,6 +17,6 @@ typedef struct {
 } nh_plane;
 
 /* All planes that zero tests find, in a fixed order; in the arena. */
-size_t nh_planes_find(nh_arena *arena, const nh_shape *shape, nh_plane **out);
+size_t nh_planes_find(nh_arena *arena, const nh_closed_shape *shape, nh_plane **out);
 
 #endif

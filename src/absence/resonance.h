@@ -4,7 +4,7 @@
 
 #include <flint/fmpq_mat.h>
 
-#include "absence/shape.h"
+#include "absence/closed_shape.h"
 
 typedef struct {
     const char *point;      /* "theta = 0, omega = 0": where the shape rests */
@@ -20,6 +20,6 @@ typedef struct {
 /* At most n - span - j integrals near 0 of x' = A x + ..; in the arena. */
 nh_resonance *nh_resonance_of(nh_arena *arena, const fmpq_mat_t matrix);
 /* At the states of rest that zero tests find (0, pi/2, pi of angles, else 0); in the arena. */
-size_t nh_resonance_find(nh_arena *arena, const nh_shape *shape, nh_resonance ***out);
+size_t nh_resonance_find(nh_arena *arena, const nh_closed_shape *shape, nh_resonance ***out);
 
 #endif

@@ -1,6 +1,6 @@
-/* shape: the equations that are left when coordinates on which nothing else depends are left out. */
-#ifndef NH_ABSENCE_SHAPE_H
-#define NH_ABSENCE_SHAPE_H
+/* closed_shape: the equations that are left when coordinates on which nothing else depends are left out. */
+#ifndef NH_CLOSED_SHAPE_H
+#define NH_CLOSED_SHAPE_H
 
 #include "geometry/model.h"
 
@@ -12,9 +12,9 @@ typedef struct {
     size_t left;
     nh_ex *left_out;      /* coordinates */
     const char *obstacle; /* why nothing can be said of this system, or NULL: explicit time, tables, .. */
-} nh_shape;
+} nh_closed_shape;
 
 /* In the arena. */
-nh_shape *nh_shape_of(nh_arena *arena, const nh_model *model);
+nh_closed_shape *nh_closed_shape_of(nh_arena *arena, const nh_model *model);
 
 #endif
