@@ -30,19 +30,19 @@ Test(residues, known)
 {
     static const struct { const char *num, *den; nh_residue_verdict verdict; const char *factor, *residue; slong order; } list[] = {
         {"1  -1", "3  0 0 1", NH_RESIDUE_RATIONAL, "x", "0", 2},                 /* -1/x^2 */
-        {"1  -2", "3  2 0 1", NH_RESIDUE_MEROMORPHIC, "x^2+2", "1/2*x", 1},      /* -2/(x^2 + 2) */
+        {"1  -2", "3  2 0 1", NH_RESIDUE_MEROMORPHIC, "x^2 + 2", "1/2*x", 1},      /* -2/(x^2 + 2) */
         {"2  0 1", "3  2 0 1", NH_RESIDUE_OPEN, NULL, NULL, 0},                  /* x/(x^2 + 2): y = (x^2 + 2)^(1/2) */
-        {"2  0 1", "5  4 0 4 0 1", NH_RESIDUE_RATIONAL, "x^2+2", "0", 2},        /* x/(x^2 + 2)^2 */
-        {"1  1", "5  4 0 4 0 1", NH_RESIDUE_MEROMORPHIC, "x^2+2", "-1/16*x", 2}, /* 1/(x^2 + 2)^2 */
+        {"2  0 1", "5  4 0 4 0 1", NH_RESIDUE_RATIONAL, "x^2 + 2", "0", 2},        /* x/(x^2 + 2)^2 */
+        {"1  1", "5  4 0 4 0 1", NH_RESIDUE_MEROMORPHIC, "x^2 + 2", "-1/16*x", 2}, /* 1/(x^2 + 2)^2 */
         {"1  1", "4  0 0 0 1", NH_RESIDUE_RATIONAL, "x", "0", 3},                /* 1/x^3 */
         {"3  1 5 3", "4  0 0 0 2", NH_RESIDUE_RATIONAL, "x", "3/2", 3},
         {"1  1", "2  0 1", NH_RESIDUE_OPEN, NULL, NULL, 0},
         {"1  3", "1  2", NH_RESIDUE_RATIONAL, "1/x", "0", 2},                    /* exp(3 x/2) */
         {"3  5 0 1", "2  1 3", NH_RESIDUE_RATIONAL, "1/x", "-46/27", 3},         /* (x^2 + 5)/(3 x + 1), residue 46/27 at -1/3 */
         {"0", "1  1", NH_RESIDUE_OPEN, NULL, NULL, 0},
-        {"2  3 1", "3  -1 -1 1", NH_RESIDUE_MEROMORPHIC, "x^2-x-1", "7/5*x-1/5", 1}, /* real conjugate poles */
+        {"2  3 1", "3  -1 -1 1", NH_RESIDUE_MEROMORPHIC, "x^2 - x - 1", "7/5*x - 1/5", 1}, /* real conjugate poles */
         /* A pole of higher order beside an irrational residue: the stronger verdict. */
-        {"1  -2", "5  0 0 2 0 1", NH_RESIDUE_MEROMORPHIC, "x^2+2", "-1/4*x", 1},
+        {"1  -2", "5  0 0 2 0 1", NH_RESIDUE_MEROMORPHIC, "x^2 + 2", "-1/4*x", 1},
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         nh_arena *arena = nh_arena_create();

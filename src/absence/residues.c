@@ -11,16 +11,15 @@
 
 #include <flint/fmpz_poly_factor.h>
 
+#include "absence/polynomial_text.h"
+
 /* The factor in words, and the residue modulo it. */
 static void say(nh_arena *arena, nh_residues *out, nh_residue_verdict verdict, const fmpz_poly_t f,
                 const fmpq_poly_t residue)
 {
-    char *factor = fmpz_poly_get_str_pretty(f, "x"), *value = fmpq_poly_get_str_pretty(residue, "x");
     out->verdict = verdict;
-    out->factor = nh_arena_strdup(arena, factor);
-    out->residue = nh_arena_strdup(arena, value);
-    flint_free(factor);
-    flint_free(value);
+    out->factor = nh_polynomial_text_whole(arena, f, "x");
+    out->residue = nh_polynomial_text(arena, residue, "x");
 }
 
 /* out := a b modulo f */
@@ -132,10 +131,8 @@ static void infinity(nh_arena *arena, nh_residues *out, const fmpq_poly_t num, c
     fmpq_div(residue, residue, leading);
     fmpq_neg(residue, residue);
     char *text = fmpq_get_str(NULL, 10, residue);
-    *out = (nh_residues){.verdict = NH_RESIDUE_RATIONAL,
-                         .factor = "1/x",
-                         .residue = nh_arena_strdup(arena, text),
-                         .order = excess + 2};
+    *out = (nh_residues){
+        .verdict = NH_RESIDUE_RATIONAL, .factor = "1/x", .residue = nh_arena_strdup(arena, text), .order = excess + 2};
     flint_free(text);
     fmpq_poly_clear(whole);
     fmpq_poly_clear(rest);
