@@ -54,7 +54,7 @@ static void make(answer *x, const char *text, size_t left)
     x->plane[0].words = x->plane[1].words = "x = 0";
     for (size_t i = 0; i < 2; i++) {
         x->equation[i] = (nh_normal_equation){.plane = &x->plane[i], .level = nh_ratio(o->dag, 1, 7), .curve = "y'^2 = 2/7 - y^2 + 2/3*y^3", .variable = "y", .known = 1, .dimension = 2, .blocks = 1, .single_valued = true};
-        x->attempt[i] = (nh_absence_attempt){.equation = &x->equation[i], .p = "(y^2 - y)/(2/7 - y^2 + 2/3*y^3)", .q = "-(1 + 2*y)/(2/7 - y^2 + 2/3*y^3)"};
+        x->attempt[i] = (nh_absence_attempt){.equation = &x->equation[i], .p = "(x^2 - x)/(2/7 - x^2 + 2/3*x^3)", .q = "-(1 + 2*x)/(2/7 - x^2 + 2/3*x^3)"};
     }
     static slong lowest[3] = {-1, 0, 2}, degrees[2] = {0, 3};
     static ulong pole[3] = {5, 11, 1073742390}, root[3] = {2, 3, 4};
@@ -369,20 +369,78 @@ Test(absence_words, json_of_nothing)
 }
 
 /* The section, in each form of a document. */
+static char *document(const answer *x, nh_pen_form form)
+{
+    nh_text text;
+    nh_text_init(&text);
+    nh_analysis_write(x->r, (nh_pen_style){.form = form, .verbose = true}, &text);
+    cr_expect_null(strpbrk(nh_text_string(&text), NH_ABSENCE_WORDS_FORMULA NH_ABSENCE_WORDS_END), "marks are left");
+    char *copy = strdup(nh_text_string(&text)), *to = copy;
+    for (const char *c = copy; *c;) { /* lines that go on become one */
+        bool broken = *c == '\n' && !strncmp(c + 1, "    ", 4);
+        *to++ = broken ? ' ' : *c;
+        c += broken ? 1 + strspn(c + 1, " ") : 1;
+    }
+    *to = 0;
+    nh_text_clear(&text);
+    return copy;
+}
+
+static void has(const char *text, const char *part) { cr_expect(strstr(text, part), "no %s in\n%s", part, text); }
+
 Test(absence_words, documents)
 {
     answer x;
     make(&x, SPRING, 0);
     x.a.resonances = 1, x.a.resonance = x.rests, x.a.darboux = &x.darboux;
+    char *plain = document(&x, NH_PEN_TEXT), *page = document(&x, NH_PEN_PAGE), *tex = document(&x, NH_PEN_LATEX);
+    has(plain, "Other integrals\n");
+    has(plain, "No other integral: every first integral of the equations of x, y, x', y'");
+    has(plain, "Normal form: u'' = r*u, r = (3*x^2-x+7)/(x^4 - 2)");
+    has(plain, "Only what costs little was tried");
+    has(page, "<section id=\"absence\">");
+    has(page, "href=\"#absence\"");
+    has(page, "Why the group is SL(2)");
+    has(tex, "Other integrals");
+    has(tex, "\\sqrt{x^{2} + y^{2}}");
+    free(plain), free(page), free(tex);
+    /* other certificates */
+    x.attempt[0].kovacic = NULL;
+    x.attempt[0].monodromy = &x.monodromy, x.attempt[0].orbit = 4, x.equation[0].dimension = 4, x.equation[0].blocks = 2;
+    x.a.everything = true;
+    plain = document(&x, NH_PEN_TEXT);
+    has(plain, "at least 4 of 4 dimensions");
+    has(plain, "4 in 2 blocks");
+    has(plain, "-1.25");
+    cr_expect_null(strstr(plain, "Only what costs little"));
+    free(plain);
+    /* nothing to say: no section */
+    x.a = (nh_absence){.verdict = NH_ABSENCE_SETTLED, .shape = &x.shape};
+    page = document(&x, NH_PEN_PAGE);
+    cr_expect_null(strstr(page, "#absence"));
+    cr_expect_null(strstr(page, "id=\"absence\""));
+    free(page);
+    /* an error of the program is a warning */
+    x.a = (nh_absence){.verdict = NH_ABSENCE_NONE_ELSE, .shape = &x.shape, .contradiction = "two engines disagree"};
+    page = document(&x, NH_PEN_PAGE);
+    has(page, "<p class=\"warning\"><strong>Warning:</strong> An error of this program: two engines disagree.");
+    free(page);
+    end(&x);
+}
+
+/* The first screen of `analyze`. */
+Test(absence_words, first_screen)
+{
+    answer x;
+    make(&x, PLANE, 0);
     nh_text text;
     nh_text_init(&text);
-    nh_analysis_write(x.r, (nh_pen_style){.form = NH_PEN_TEXT, .verbose = true}, &text);
-    const char *plain = nh_text_string(&text);
-    check_words(plain);
-    cr_expect(strstr(plain, "Other integrals\n"), "%s", plain);
-    cr_expect(strstr(plain, "No other integral: every first integral of the equations of x, y, x', y'"), "%s", plain);
-    cr_expect(strstr(plain, "y'' = r*y, r = (3*x^2-x+7)/(x^4 - 2)"), "%s", plain);
-    cr_expect_null(strpbrk(plain, NH_ABSENCE_WORDS_FORMULA NH_ABSENCE_WORDS_END));
+    nh_analysis_write_answer(x.r, false, &text);
+    has(nh_text_string(&text), "\nNo other integral: every first integral of the equations of x, y, x', y' that is\nmeromorphic near the complex motions x = 0 of energy 1/7");
+    nh_text_clear(&text);
+    x.a.verdict = NH_ABSENCE_OPEN;
+    nh_analysis_write_answer(x.r, false, &text);
+    cr_expect_null(strstr(nh_text_string(&text), "other integral"));
     nh_text_clear(&text);
     end(&x);
 }

@@ -67,7 +67,7 @@ static void put_left_out(const writer *w, const char *last, bool time)
     const nh_closed_shape *s = w->a->shape;
     const char **name = nh_arena_alloc(w->r->arena, (s->left + 1) * sizeof *name);
     for (size_t i = 0; i < s->left; i++) name[i] = formula(w, nh_name_of(s->model->dag, s->left_out[i]));
-    if (time) name[s->left] = "t";
+    if (time) name[s->left] = formula(w, "t");
     put_list(w, s->left + time, name, last);
 }
 
@@ -122,7 +122,7 @@ static void put_motions(const writer *w)
                      knows_energy(w) ? "of energy" : "at the level", level);
         nh_free(level);
     } else if (nh_absence_parts_by_darboux(w->a))
-        nh_text_addf(w->out, "the complex motions on the line along %s", formula(w, w->a->darboux->refutation.point));
+        nh_text_addf(w->out, "the complex motions on the line along %s", w->a->darboux->refutation.point);
     else nh_text_add(w->out, "some complex motions");
 }
 
@@ -384,6 +384,7 @@ nh_absence_words nh_absence_words_of(const nh_analysis *r)
         keep(&w, &all);
         put_not_excluded(&w);
         keep(&w, &all);
+        all.not_excluded = all.sentence[all.count - 1];
         put_unused(&w);
         keep(&w, &all);
     }
@@ -423,8 +424,8 @@ static const nh_resonance *best_rest(const nh_absence *a)
     return best;
 }
 
-/* What is left out first where room is short: the other values of parameters, then what is not excluded, which then
- * stands in the details. */
+/* What is left out first where room is short: the other values of parameters, then what is not excluded but for the
+ * letters that are left out. */
 static const char *short_words(const nh_analysis *r, bool generic, bool exceptions)
 {
     nh_absence a = *r->absence;
@@ -434,7 +435,11 @@ static const char *short_words(const nh_analysis *r, bool generic, bool exceptio
     writer w = {.r = r, .a = &a, .best = nh_absence_parts_best(&a), .brief = true, .out = &text};
     put_statement(&w);
     if (nh_absence_parts_excludes(&a) && exceptions) nh_text_add(&text, " "), put_not_excluded(&w);
-    else if (nh_absence_parts_excludes(&a)) nh_text_add(&text, " Not excluded: others (--details).");
+    else if (nh_absence_parts_excludes(&a)) {
+        nh_text_add(&text, " Not excluded: ones that contain ");
+        put_left_out(&w, " or ", true);
+        nh_text_add(&text, ", and others (--details).");
+    }
     const char *words = nh_absence_words_plain(r->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return words;

@@ -15,6 +15,7 @@
 typedef struct {
     size_t count;
     const char **sentence;
+    const char *not_excluded; /* the one of these that says what is not; or NULL */
 } nh_absence_words;
 
 /* All that the analysis says: the statement, what is excluded besides, what is not, states of rest; in the arena of the

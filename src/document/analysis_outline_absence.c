@@ -33,6 +33,13 @@ static void put_marked(nh_pen *p, nh_arena *arena, const char *sentence)
     }
 }
 
+static void put_paragraph(nh_pen *p, nh_arena *arena, const char *sentence)
+{
+    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
+    put_marked(p, arena, sentence);
+    nh_pen_close(p, NH_PEN_WORDS);
+}
+
 bool nh_analysis_has_absence(const nh_analysis *r)
 {
     const nh_absence *a = r->absence;
@@ -49,9 +56,8 @@ void nh_analysis_write_absence_statement(nh_pen *p, const nh_analysis *r)
         nh_pen_warning(p, nh_absence_words_plain(r->arena, words.sentence[0]));
         return;
     }
-    nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-    put_marked(p, r->arena, words.sentence[0]);
-    nh_pen_close(p, NH_PEN_WORDS);
+    put_paragraph(p, r->arena, words.sentence[0]);
+    if (words.not_excluded) put_paragraph(p, r->arena, words.not_excluded);
 }
 
 /* ---- the motions that were tried ---- */
@@ -67,10 +73,10 @@ static const char *factor(nh_arena *arena, const char *coefficient)
 
 static const char *equation_text(nh_arena *arena, const nh_absence_attempt *t)
 {
-    const char *text = "y''";
+    const char *text = "u''";
     if (!t->p || !t->q) return NULL;
-    if (!is_none(t->p)) text = nh_arena_printf(arena, "%s + %s*y'", text, factor(arena, t->p));
-    if (!is_none(t->q)) text = nh_arena_printf(arena, "%s + %s*y", text, factor(arena, t->q));
+    if (!is_none(t->p)) text = nh_arena_printf(arena, "%s + %s*u'", text, factor(arena, t->p));
+    if (!is_none(t->q)) text = nh_arena_printf(arena, "%s + %s*u", text, factor(arena, t->q));
     return nh_arena_printf(arena, "%s = 0", text);
 }
 
@@ -120,8 +126,9 @@ static void equation_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt 
     const char *text = equation_text(arena, t);
     if (!text) return;
     nh_pen_fact_begin(p, "Normal variational equation");
-    nh_pen_say(p, "<%s>", text);
-    if (t->equation->variable) nh_pen_say(p, ", with <%s>", nh_arena_printf(arena, "x = %s", t->equation->variable));
+    nh_pen_say(p, "<%s>, derivatives by <%s>", text, "x");
+    if (t->equation->variable && strcmp(t->equation->variable, "x") != 0)
+        nh_pen_say(p, ", where <%s> stands for <%s>", "x", t->equation->variable);
     nh_pen_close(p, NH_PEN_FACT);
 }
 
@@ -149,7 +156,7 @@ static void kovacic_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     equation_facts(p, arena, t);
     nh_pen_fact_begin(p, "Normal form");
-    nh_pen_say(p, "<%s>, <%s>", "y'' = r*y", nh_arena_printf(arena, "r = (%s)/(%s)", k->r_num, k->r_den));
+    nh_pen_say(p, "<%s>, <%s>", "u'' = r*u", nh_arena_printf(arena, "r = (%s)/(%s)", k->r_num, k->r_den));
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact(p, "Singular points", "%s, infinity included", k->regular ? "all regular" : "some irregular");
     nh_pen_fact(p, "Prime", "%zu", (size_t)k->prime);
@@ -223,7 +230,7 @@ static void darboux(nh_pen *p, const nh_darboux *d)
                 d->undecided);
     if (d->refuted) {
         nh_pen_fact_begin(p, "Eigenvalue");
-        nh_pen_say(p, "<%s> at <%s>, which integrable potentials of this degree do not have", d->refutation.eigenvalue,
+        nh_pen_say(p, "<%s> at %s, which integrable potentials of this degree do not have", d->refutation.eigenvalue,
                    d->refutation.point);
         nh_pen_close(p, NH_PEN_FACT);
     }
@@ -272,7 +279,7 @@ static void remarks(nh_pen *p, const nh_analysis *r)
         nh_pen_close(p, NH_PEN_WORDS);
     }
     if (!a->everything)
-        nh_pen_words(p, "Only what costs little was tried; `--absence` tries all planes, levels and methods.");
+        nh_pen_words(p, "Only what costs little was tried; --absence tries all planes, levels and methods.");
 }
 
 void nh_analysis_write_absence(nh_pen *p, const nh_analysis *r)
@@ -281,11 +288,7 @@ void nh_analysis_write_absence(nh_pen *p, const nh_analysis *r)
     if (!nh_analysis_has_absence(r)) return;
     nh_absence_words words = nh_absence_words_of(r);
     nh_pen_section(p, "absence", "Other integrals");
-    for (size_t i = 0; i < words.count; i++) {
-        nh_pen_open(p, NH_PEN_WORDS, NULL, NULL);
-        put_marked(p, r->arena, words.sentence[i]);
-        nh_pen_close(p, NH_PEN_WORDS);
-    }
+    for (size_t i = 0; i < words.count; i++) put_paragraph(p, r->arena, words.sentence[i]);
     if (!a->contradiction) remarks(p, r);
     motions(p, r);
     certificate(p, r);
