@@ -102,7 +102,7 @@ static bool read_range(nh_classified_absence *x, const char *text, range *r, nh_
 
 static bool read_list(nh_classified_absence *x, const char *text, range *r, nh_error *error)
 {
-    x->range = "in the list";
+    x->range = "in the list, and special values between";
     for (const char *at = strchr(text, '=') + 1;; at++) {
         size_t length = strcspn(at, ",");
         nh_num v;

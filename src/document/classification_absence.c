@@ -2,8 +2,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "document/classification.h"
+#include "document/classification_internal.h"
+#include "document/current_words.h"
 #include "document/screen.h"
+#include "graph/print.h"
 
 /* ---- words ---- */
 
@@ -26,19 +28,20 @@ static const char *motion_of(const nh_classified_absence *x, const nh_absence *a
     return nh_arena_printf(x->arena, "%s, %s", e->plane->words, e->curve);
 }
 
-static bool same_reason(const nh_classified_value *a, const nh_classified_value *b)
+/* Values that are excluded are listed together, and undecided ones with the same reason. */
+static bool together(const nh_classified_value *a, const nh_classified_value *b)
 {
-    return a->side == b->side && (a->why == b->why || (a->why && b->why && !strcmp(a->why, b->why)));
+    if (a->side != b->side || a->side == NH_CLASSIFIED_FOUND) return false;
+    return a->side == NH_CLASSIFIED_EXCLUDED || a->why == b->why || (a->why && b->why && !strcmp(a->why, b->why));
 }
 
-/* "mu = 3/2, 5/4": the value, and all later ones of the same side and, of undecided ones, with the same reason. */
+/* "mu = 3/2, 5/4": the value, and all later ones that are listed with it. */
 static const char *list(const nh_classified_absence *x, size_t from)
 {
     const nh_classified_value *v = &x->value[from];
     const char *text = nh_arena_printf(x->arena, "%s = %s", x->over, v->text);
     for (size_t k = from + 1; k < x->values; k++)
-        if (x->value[k].side == v->side && (v->side != NH_CLASSIFIED_UNDECIDED || same_reason(v, &x->value[k])))
-            text = nh_arena_printf(x->arena, "%s, %s", text, x->value[k].text);
+        if (together(v, &x->value[k])) text = nh_arena_printf(x->arena, "%s, %s", text, x->value[k].text);
     return text;
 }
 
@@ -46,9 +49,7 @@ static const char *list(const nh_classified_absence *x, size_t from)
 static bool listed(const nh_classified_absence *x, size_t k)
 {
     for (size_t i = 0; i < k; i++)
-        if (x->value[i].side == x->value[k].side &&
-            (x->value[k].side != NH_CLASSIFIED_UNDECIDED || same_reason(&x->value[i], &x->value[k])))
-            return true;
+        if (together(&x->value[i], &x->value[k])) return true;
     return false;
 }
 
@@ -89,6 +90,20 @@ static const char *headline(const nh_classified_absence *x)
 
 /* ---- the document ---- */
 
+/* Of a value with more integrals: its formulas. */
+static void show_currents(const nh_analysis *result, bool colour, nh_text *block)
+{
+    enum { most_lines = 3 };
+    const nh_absence *a = result->absence;
+    for (size_t k = 0; k < a->known; k++) {
+        const nh_current *f = &result->list->found[a->known_current[k]];
+        char *text = nh_print_string(result->question->model->dag,
+                                     nh_current_signed(result, f, nh_classification_formula(result, f)));
+        nh_screen_put(block, colour, 4, nh_current_label(result, f), text, most_lines, NULL);
+        nh_free(text);
+    }
+}
+
 static void write_screen(const nh_classified_absence *x, bool colour, nh_text *out)
 {
     enum { tail = 5 };
@@ -105,6 +120,7 @@ static void write_screen(const nh_classified_absence *x, bool colour, nh_text *o
             if (x->value[k].side != (nh_classified_side)side || listed(x, k)) continue;
             nh_screen_paragraph(2, NH_SCREEN_HANG,
                                 nh_arena_printf(x->arena, "%s: %s", list(x, k), statement(x, &x->value[k])), &block);
+            if (side == NH_CLASSIFIED_FOUND) show_currents(x->value[k].result, colour, &block);
             left += !nh_screen_fit(out, &block, tail);
         }
     if (left) nh_text_addf(out, "  %zu more lines: --details\n", left);
@@ -153,9 +169,26 @@ void nh_classification_absence_write(const nh_classified_absence *x, const nh_ru
 
 /* ---- JSON ---- */
 
+/* The independent integrals that are found at a value. */
+static void put_currents(const nh_analysis *result, nh_json *to)
+{
+    nh_json *list = nh_json_put_array(to, "currents");
+    const nh_absence *a = result ? result->absence : NULL;
+    for (size_t k = 0; a && k < a->known; k++) {
+        const nh_current *f = &result->list->found[a->known_current[k]];
+        char *text = nh_print_short(result->question->model->dag, nh_classification_formula(result, f),
+                                    result->question->options.written);
+        nh_json *item = nh_json_add_object(list);
+        nh_json_put_text(item, "name", f->name);
+        nh_json_put_text(item, "current", text);
+        nh_free(text);
+    }
+}
+
 static void put_engines(const nh_absence *a, nh_json *to)
 {
     nh_json *list = nh_json_put_array(to, "engines");
+    if (!a) return;
     if (a->darboux && a->darboux->refuted) nh_json_add_text(list, "lines");
     if (a->best >= a->attempts) return;
     const nh_absence_attempt *t = &a->attempt[a->best];
@@ -178,7 +211,8 @@ static void put_value(const nh_classified_absence *x, const nh_classified_value 
                      a && v->side == NH_CLASSIFIED_EXCLUDED ? (a->rational ? "rational" : "meromorphic") : NULL);
     nh_json_put_text(item, "obstacle", v->side == NH_CLASSIFIED_UNDECIDED ? v->why : NULL);
     nh_json_put_text(item, "contradiction", a ? a->contradiction : NULL);
-    if (a) put_engines(a, item);
+    put_engines(a, item);
+    put_currents(v->result, item);
 }
 
 char *nh_classification_absence_json(const nh_classified_absence *x, const nh_run *run)
@@ -188,6 +222,10 @@ char *nh_classification_absence_json(const nh_classified_absence *x, const nh_ru
     nh_json_put_text(root, "version", NH_VERSION);
     nh_json_put_text(root, "system", x->system->name);
     nh_json_add_text(nh_json_put_array(root, "over"), x->over);
+    nh_json *parameters = nh_json_put_object(root, "parameters");
+    for (size_t i = 0; i < x->system->parameters; i++)
+        if (strcmp(x->system->parameter[i].name, x->over))
+            nh_json_put_number(parameters, x->system->parameter[i].name, x->system->parameter[i].value);
     nh_json_put_text(root, "of", "absence");
     nh_json_put_text(root, "range", x->range);
     nh_json_put_number(root, "fewest", x->fewest == SIZE_MAX ? NAN : (double)x->fewest);
