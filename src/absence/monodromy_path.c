@@ -5,9 +5,10 @@
 #include "base/memory.h"
 
 enum {
-    direction_bits = 64,     /* of lengths */
-    corners = 16,            /* of the polygon around a point: sides of 0.39 radii */
-    reach = 13, reach_of = 32 /* a step is 0.41 of the distance to the nearest singular point */
+    direction_bits = 64, /* of lengths */
+    corners = 16,        /* of the polygon around a point: sides of 0.39 radii */
+    reach = 13,
+    reach_of = 32 /* a step is 0.41 of the distance to the nearest singular point */
 };
 
 static void path_add(nh_monodromy_path *path, const acb_t z)

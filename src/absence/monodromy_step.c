@@ -17,13 +17,13 @@
 #include "base/memory.h"
 
 enum {
-    spare_bits = 32,      /* of the series, beyond those of the result */
-    bound_bits = 53,      /* of bounds */
-    pieces = 8,           /* that cover a step */
-    fewest_bits = 32,     /* of small coefficients */
-    envelope = 2,         /* bits by which a coefficient may fall short of the one before without being believed */
-    room = 64,            /* coefficients between two moves of the window */
-    strongest = 8,        /* int |A| may be bits/8 */
+    spare_bits = 32,  /* of the series, beyond those of the result */
+    bound_bits = 53,  /* of bounds */
+    pieces = 8,       /* that cover a step */
+    fewest_bits = 32, /* of small coefficients */
+    envelope = 2,     /* bits by which a coefficient may fall short of the one before without being believed */
+    room = 64,        /* coefficients between two moves of the window */
+    strongest = 8,    /* int |A| may be bits/8 */
     most_terms_per_bit = 16,
     most_halvings = 24,
     word = 64
@@ -70,7 +70,8 @@ static void series_clear(series *s)
 }
 
 /* out(t) = factor p(z + h t) */
-static void shifted(acb_poly_t out, const fmpz_poly_struct *p, const acb_t z, const acb_t h, const acb_t factor, long bits)
+static void shifted(acb_poly_t out, const fmpz_poly_struct *p, const acb_t z, const acb_t h, const acb_t factor,
+                    long bits)
 {
     acb_t scale;
     acb_init(scale);
@@ -224,7 +225,8 @@ static void series_next(acb_t next, const series *s, size_t a, size_t b, size_t 
         size_t length = (size_t)acb_poly_length(num);
         if (length > known) length = known;
         if (length)
-            acb_dot(next, next, 0, num->coeffs, 1, s->c + (c * s->n + b) * s->span + s->at - 1, -1, (slong)length, bits);
+            acb_dot(next, next, 0, num->coeffs, 1, s->c + (c * s->n + b) * s->span + s->at - 1, -1, (slong)length,
+                    bits);
     }
     size_t length = (size_t)acb_poly_length(s->den + a) - 1;
     if (length > k) length = k; /* E_0 is 0 */
@@ -368,8 +370,8 @@ static bool line_within(nh_monodromy_sum *sum, size_t b, const acb_t z, const ac
     acb_mat_init(second, acb_mat_nrows(T), acb_mat_nrows(T));
     acb_mul_2exp_si(half, h, -1);
     acb_add(middle, z, half, ARF_PREC_EXACT);
-    bool good = line_within(sum, b, z, half, halvings - 1, T) &&
-                line_within(sum, b, middle, half, halvings - 1, second);
+    bool good =
+        line_within(sum, b, z, half, halvings - 1, T) && line_within(sum, b, middle, half, halvings - 1, second);
     if (good) acb_mat_mul(T, second, T, sum->bits);
     acb_clear(half);
     acb_clear(middle);
