@@ -39,7 +39,7 @@ static const nh_kovacic *decide(void)
 }
 
 /* By one prime, and by the next. */
-static const nh_kovacic *expect(nh_group group, const char *what)
+static const nh_kovacic *expect(nh_kovacic_group group, const char *what)
 {
     const nh_kovacic *one = decide(), *two = decide_after(one->prime);
     cr_expect_eq(one->group, group, "%s: %s, %s", what, nh_kovacic_word(one->group), one->obstacle);
@@ -49,7 +49,7 @@ static const nh_kovacic *expect(nh_group group, const char *what)
     return one;
 }
 
-static const nh_kovacic *expect_text(nh_group group, const char *text)
+static const nh_kovacic *expect_text(nh_kovacic_group group, const char *text)
 {
     put_text(r, text);
     return expect(group, text);
@@ -210,7 +210,7 @@ Test(kovacic, henon_heiles)
 {
     static const struct {
         ratio B, eps;
-        nh_group group;
+        nh_kovacic_group group;
     } all[] = {
         {{1, 1}, {-1, 3}, NH_GROUP_SL2}, {{1, 1}, {1, 1}, NH_GROUP_SL2},   {{1, 1}, {16, 3}, NH_GROUP_SL2},
         {{1, 1}, {2, 1}, NH_GROUP_OPEN}, {{7, 3}, {2, 1}, NH_GROUP_OPEN},  {{1, 1}, {1, 3}, NH_GROUP_OPEN},
@@ -231,7 +231,7 @@ Test(kovacic, suslov)
 {
     static const struct {
         ratio I1, I2;
-        nh_group group;
+        nh_kovacic_group group;
     } all[] = {
         {{1, 1}, {1, 1}, NH_GROUP_OPEN}, {{2, 1}, {1, 1}, NH_GROUP_SL2}, {{1, 1}, {2, 1}, NH_GROUP_SL2},
         {{3, 1}, {2, 1}, NH_GROUP_SL2},  {{8, 3}, {1, 1}, NH_GROUP_SL2}, {{3, 1}, {1, 1}, NH_GROUP_SL2},

@@ -87,7 +87,7 @@ static bool irrational(const nh_kovacic_problem *problem)
     return false;
 }
 
-static nh_group with_prime(const nh_kovacic_problem *problem, nh_kovacic *out)
+static nh_kovacic_group with_prime(const nh_kovacic_problem *problem, nh_kovacic *out)
 {
     if (!nh_kovacic_riccati(problem, out)) return NH_GROUP_UNDECIDED;
     bool infinite = out->riccati == 1 && out->regular && irrational(problem);
@@ -116,7 +116,7 @@ static nh_group with_prime(const nh_kovacic_problem *problem, nh_kovacic *out)
     return infinite ? NH_GROUP_TRIANGULAR : NH_GROUP_SL2;
 }
 
-static nh_group group_of(nh_kovacic_problem *problem, nh_kovacic *out, ulong after)
+static nh_kovacic_group group_of(nh_kovacic_problem *problem, nh_kovacic *out, ulong after)
 {
     if (!nh_kovacic_degrees(problem, out)) return NH_GROUP_UNDECIDED;
     bounds(problem, out);
@@ -170,7 +170,7 @@ nh_kovacic *nh_kovacic_decide(nh_arena *arena, const fmpz_poly_t r_num, const fm
     return nh_kovacic_decide_after(arena, r_num, r_den, first_prime);
 }
 
-const char *nh_kovacic_word(nh_group group)
+const char *nh_kovacic_word(nh_kovacic_group group)
 {
     static const char *const word[] = {
         [NH_GROUP_SL2] = "SL(2)",

@@ -8,7 +8,7 @@
 
 /* NH_GROUP_SL2 is proved.  NH_GROUP_TRIANGULAR: SL(2) or the triangular group of dimension 2, proved: not virtually
  * abelian.  NH_GROUP_OPEN: not refuted, which proves nothing.  NH_GROUP_UNDECIDED: not tried to the end. */
-typedef enum { NH_GROUP_SL2, NH_GROUP_TRIANGULAR, NH_GROUP_OPEN, NH_GROUP_UNDECIDED } nh_group;
+typedef enum { NH_GROUP_SL2, NH_GROUP_TRIANGULAR, NH_GROUP_OPEN, NH_GROUP_UNDECIDED } nh_kovacic_group;
 
 /* Invariants of one degree m: a_m = prod (x - c)^lowest[c] P, deg P <= degree. */
 typedef struct {
@@ -23,7 +23,7 @@ enum { NH_KOVACIC_INVARIANTS = 4 }; /* of degree 4, 6, 8 and 12 */
 
 /* What a checker needs to repeat the proof. */
 typedef struct {
-    nh_group group;
+    nh_kovacic_group group;
     bool regular;              /* every singular point, infinity included, is regular */
     const char *obstacle;      /* of NH_GROUP_UNDECIDED and NH_GROUP_OPEN: the first, in words; else NULL */
     const char *r_num, *r_den; /* polynomials in x, as text */
@@ -54,6 +54,6 @@ nh_kovacic *nh_kovacic_decide(nh_arena *arena, const fmpz_poly_t r_num, const fm
 void nh_kovacic_certificate(nh_json *object, const nh_kovacic *kovacic);
 
 /* "SL(2)", "triangular, of dimension 2, or SL(2)", "open", "undecided". */
-const char *nh_kovacic_word(nh_group group);
+const char *nh_kovacic_word(nh_kovacic_group group);
 
 #endif

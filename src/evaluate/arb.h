@@ -14,6 +14,7 @@
 #include <flint/acb_elliptic.h>
 #include <flint/acb_hypgeom.h>
 #include <flint/acb_poly.h>
+#include <flint/arb_fmpz_poly.h>
 #else
 #include <arb.h>
 #include <arb_fmpz_poly.h>
@@ -24,6 +25,7 @@
 #include <acb_elliptic.h>
 #include <acb_hypgeom.h>
 #include <acb_poly.h>
+#include <arb_fmpz_poly.h>
 #endif
 
 #endif
