@@ -50,8 +50,8 @@ for c, order, n, s in [] if odd else zip(poles, orders, k, C["roots"]):         
     need(order == 1 or (s*s-(r[0] if order > 2 else 1+4*r[0])) % p == 0 and (order == 2 or s), "a root at the pole %d" % c)
     S, rest = root(r, s, n) if order > 2 else [s*half], over(D, power([-c, 1], n), len(D)-n) if c else D[n:]
     parts.append([mul(at([g*u for u in S[:-1]]+[g*S[-1]+n*half if order > 1 else 1], -c), rest) for g in (1, -1)])
-s, r = C["root_infinity"], over(trim(num[::-1], p), den[::-1], max(1, 2-o//2))
-need(odd or (s*s-(r[0] if o < 2 else 1+4*r[0]*(o == 2))) % p == 0 and (o > 1 or s), "the root at infinity")
+s, r = C.get("root_infinity", 0), over(trim(num[::-1], p), den[::-1], max(1, 2-o//2))
+need(odd or o > 1 or s and (s*s-r[0]) % p == 0, "the root at infinity")
 parts.append([mul([g*u for u in root(r, s, 1-o//2)[::-1]], D) for g in (1, -1)] if o < 2 and not odd else [[]])
 def choices(parts): return [add(T, u) for T in choices(parts[1:]) for u in parts[0][:1+(parts[0][0] != parts[0][-1])]] if parts else [[]]
 for T in choices(parts) if C["degrees"] and not odd else []:                     # D den P'' + 2 T den P' + N P = 0, where N D = ..

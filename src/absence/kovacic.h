@@ -29,7 +29,7 @@ typedef struct {
     const char *r_num, *r_den; /* polynomials in x, as text */
     size_t num_length, den_length;
     const char **num, **den; /* their coefficients, lowest degree first */
-    ulong prime;             /* 0: none was found; of NH_GROUP_SL2, the exponents alone exclude all solutions */
+    ulong prime;             /* not 0 where something is proved */
     size_t poles;
     ulong *pole; /* modulo the prime; NULL without one, as `root` */
     bool *double_pole;

@@ -60,9 +60,8 @@ const char *nh_kovacic_large(nh_arena *arena);
 /* lowest, degree and possible of an invariant; the degree is over most_degree where numbers are too large. */
 void nh_kovacic_bounds(const nh_kovacic_problem *problem, nh_kovacic_invariant *invariant);
 
-/* The smallest suitable prime after `after`; fills prime, pole and root.  False: none was found; few are tried where
- * none is needed. */
-bool nh_kovacic_prime_find(nh_kovacic_problem *problem, ulong after, bool needed);
+/* The smallest suitable prime after `after`; fills prime, pole and root.  False: none was found. */
+bool nh_kovacic_prime_find(nh_kovacic_problem *problem, ulong after);
 /* 1 + 4 b, or the leading coefficient of r, at pole i (infinity: i = poles) modulo the prime. */
 ulong nh_kovacic_prime_square(const nh_kovacic_problem *problem, size_t i);
 /* `terms` terms of the series of t^order r at pole i, at infinity those of x^o r in 1/x. */

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 /* Of primes for which the cheap conditions hold; of all. */
-enum { most_trials = 30000, few_trials = 3000, most_primes = 1000000 };
+enum { most_trials = 30000, most_primes = 1000000 };
 
 static int by_size(const void *a, const void *b)
 {
@@ -134,19 +134,18 @@ static bool suits(nh_kovacic_problem *problem)
     return different(problem) && roots(problem);
 }
 
-bool nh_kovacic_prime_find(nh_kovacic_problem *problem, ulong after, bool needed)
+bool nh_kovacic_prime_find(nh_kovacic_problem *problem, ulong after)
 {
     conditions c;
     read_conditions(problem, &c);
     bool found = false;
-    slong trials = needed ? most_trials : few_trials;
     problem->prime = after;
-    for (size_t tried = 0; tried < most_primes && trials > 0 && !found; tried++) {
+    for (size_t tried = 0, trials = 0; tried < most_primes && trials < most_trials && !found; tried++) {
         problem->prime = n_nextprime(problem->prime, 0);
         if (problem->prime <= problem->poles) continue; /* some residue must be no pole */
         if (!hold(&c, problem->prime) || !fmpz_fdiv_ui(fmpz_poly_lead(problem->den), problem->prime)) continue;
         found = suits(problem);
-        trials--;
+        trials++;
     }
     _fmpz_vec_clear(c.must_be_square, 2 * (slong)problem->places + 2);
     if (!found) problem->prime = 0;
