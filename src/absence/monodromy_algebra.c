@@ -342,8 +342,7 @@ void nh_monodromy_prove(const nh_monodromy_sum *sum, const nh_monodromy_element 
     for (size_t b = 0; b < sum->blocks; b++) used[b] = true;
     for (size_t i = 0; i < sum->points; i++) {
         inverse[i] = nh_monodromy_element_new(sum);
-        for (size_t b = 0; b < sum->blocks; b++)
-            good = good && acb_mat_inv(inverse[i] + b, loop[i] + b, sum->bits);
+        for (size_t b = 0; b < sum->blocks; b++) good = good && acb_mat_inv(inverse[i] + b, loop[i] + b, sum->bits);
     }
     span all;
     span_init(&all, sum, used);
