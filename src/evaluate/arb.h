@@ -6,6 +6,7 @@
 
 #if __has_include(<flint/arb.h>)
 #include <flint/arb.h>
+#include <flint/arb_fmpz_poly.h>
 #include <flint/arb_mat.h>
 #include <flint/arb_poly.h>
 #include <flint/acb.h>
@@ -16,6 +17,7 @@
 #include <flint/arb_fmpz_poly.h>
 #else
 #include <arb.h>
+#include <arb_fmpz_poly.h>
 #include <arb_mat.h>
 #include <arb_poly.h>
 #include <acb.h>
