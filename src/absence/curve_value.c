@@ -125,7 +125,7 @@ static nh_curve_state power(const evaluation *v, size_t base, nh_ex exponent, nh
     if (!numeric) return NH_CURVE_UNKNOWN;
     nh_curve_field_set(out, b);
     for (; x.q % 2 == 0; x.q /= 2)
-        if (!nh_curve_field_sqrt(out, out)) return NH_CURVE_UNKNOWN;
+        if (!nh_curve_field_sqrt(out, out, v->place->side)) return NH_CURVE_UNKNOWN;
     if (x.q != 1) return NH_CURVE_UNKNOWN;
     *why = pole;
     return nh_curve_field_pow(v->place->field, out, out, x.p) ? NH_CURVE_FINE : NH_CURVE_SINGULAR;
