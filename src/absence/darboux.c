@@ -135,12 +135,14 @@ static const char *read_degree(nh_darboux_work *w)
 static const char *read_system(nh_darboux_work *w, const nh_closed_shape *shape)
 {
     const nh_system *system = shape->model->system;
-    if (shape->obstacle) return shape->obstacle;
     if (system->constraints) return "there are constraints";
     if (system->has_forces) return "there are forces besides those of a potential";
     if (w->n < 2 || w->n > NH_DARBOUX_MOST) return "there are not two to twelve coordinates";
     nh_ex L = nh_system_values(system, w->dag, system->lagrangian);
-    if (nh_depends(w->dag, L, system->t)) return "the Lagrangian depends on the time";
+    if (nh_depends(w->dag, L, system->t) || system->driven) return "the Lagrangian depends on the time";
+    for (size_t i = 0; i < system->parameters; i++)
+        if (system->parameter[i].input && nh_depends(w->dag, system->lagrangian, system->parameter[i].symbol))
+            return "the Lagrangian contains an input, which may change with time";
     const char *obstacle = read_inertia(w, L);
     if (!obstacle) obstacle = read_kinds(w, w->potential);
     if (!obstacle) obstacle = read_degree(w);

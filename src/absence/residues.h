@@ -5,7 +5,8 @@
 #include "absence/linear_equation.h"
 
 /* NH_RESIDUE_MEROMORPHIC: some residue is not rational, so a loop multiplies y by no root of unity.
- * NH_RESIDUE_RATIONAL: only a pole of higher order, or at infinity, makes the group infinite.  NH_RESIDUE_OPEN: it is finite. */
+ * NH_RESIDUE_RATIONAL: only a pole of higher order, or at infinity, makes the group infinite.
+ * NH_RESIDUE_OPEN: it is finite. */
 typedef enum { NH_RESIDUE_MEROMORPHIC, NH_RESIDUE_RATIONAL, NH_RESIDUE_OPEN } nh_residue_verdict;
 
 typedef struct {

@@ -91,6 +91,9 @@ static void keep(work *w, nh_resonance *resonance)
         if (!strcmp(w->found[i]->polynomial, resonance->polynomial) &&
             w->found[i]->diagonalizable == resonance->diagonalizable)
             return;
+    nh_ex *value = nh_arena_alloc(w->arena, w->shape->count * sizeof *value);
+    memcpy(value, w->value, w->shape->count * sizeof *value);
+    resonance->value = value;
     resonance->point = words(w);
     nh_grow(&w->found, &w->capacity, w->count + 1, sizeof *w->found);
     size_t at = w->count++;
