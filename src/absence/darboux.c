@@ -1,11 +1,9 @@
-#include <stdlib.h>
-
 #include "absence/darboux_internal.h"
 #include "absence/rational_value.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
 #include "graph/diff.h"
-#include "graph/function.h"
+#include "graph/node.h"
 #include "graph/num.h"
 
 /* ---- is it a homogeneous potential? ---- */
@@ -27,72 +25,6 @@ static const char *read_inertia(nh_darboux_work *w, nh_ex L)
     }
     w->potential = nh_neg(dag, nh_substitute(dag, L, w->n, w->v, zero));
     return fmpq_mat_inv(w->inverse, w->inertia) ? NULL : "a velocity has no inertia";
-}
-
-/* Powers with rational exponents of positions and numbers, and nothing else? */
-static const char *read_kinds(nh_darboux_work *w, nh_ex e)
-{
-    const nh_dag *dag = w->dag;
-    nh_ex *node = NULL;
-    size_t n = nh_nodes_in(dag, 1, &e, &node);
-    bool good = true;
-    for (size_t i = 0; i < n && good; i++) {
-        nh_kind kind = nh_kind_of(dag, node[i]);
-        bool position = kind != NH_SYMBOL;
-        for (size_t j = 0; j < w->n && !position; j++) position = w->q[j] == node[i];
-        good = position && kind != NH_FUNCTION && (kind != NH_NUMBER || nh_num_exact(nh_number_of(dag, node[i])));
-        for (size_t j = 0; kind == NH_PRODUCT && j < nh_arity(dag, node[i]) && good; j++) {
-            nh_ex exponent = nh_exponent_of(dag, node[i], j);
-            good = nh_kind_of(dag, exponent) == NH_NUMBER && nh_num_short(nh_number_of(dag, exponent));
-            if (good && nh_number_of(dag, exponent).q != 1 && nh_kind_of(dag, nh_child(dag, node[i], j)) != NH_NUMBER)
-                w->out->roots = true;
-        }
-    }
-    nh_nodes_free(&node);
-    return good ? NULL : "the potential contains more than powers and roots of the coordinates, or the time";
-}
-
-static int by_index(const void *a, const void *b)
-{
-    const nh_ex *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
-/* The degree of a sum, a power or a product from those of its parts; false: the terms of a sum have different ones. */
-static bool degree_of_node(const nh_dag *dag, nh_ex e, size_t below, const nh_ex *node, nh_num *degree)
-{
-    bool sum = nh_kind_of(dag, e) == NH_SUM;
-    degree[below] = nh_num_int(nh_kind_of(dag, e) == NH_SYMBOL);
-    if (!sum && nh_kind_of(dag, e) != NH_PRODUCT) return true;
-    if (sum && !nh_num_is(nh_constant_of(dag, e), 0)) return false;
-    for (size_t i = 0; i < nh_arity(dag, e); i++) {
-        nh_ex child = nh_child(dag, e, i);
-        const nh_ex *found = bsearch(&child, node, below, sizeof *node, by_index);
-        if (!found) return false;
-        size_t at = (size_t)(found - node);
-        if (sum && i && !nh_num_equal(degree[at], degree[below])) return false;
-        if (sum) degree[below] = degree[at];
-        else
-            degree[below] =
-                nh_num_add(degree[below], nh_num_mul(degree[at], nh_number_of(dag, nh_exponent_of(dag, e, i))));
-    }
-    return true;
-}
-
-/* The degree of V without its constant, where all terms of its sums have one degree. */
-static bool degree_by_terms(nh_darboux_work *w, nh_num *k)
-{
-    nh_dag *dag = w->dag;
-    nh_ex V = w->potential, *node = NULL;
-    if (nh_kind_of(dag, V) == NH_SUM) V = nh_sub(dag, V, nh_number(dag, nh_constant_of(dag, V)));
-    size_t n = nh_nodes_in(dag, 1, &V, &node);
-    nh_num *degree = nh_alloc_array(n + 1, sizeof *degree);
-    bool good = true;
-    for (size_t i = 0; i < n && good; i++) good = degree_of_node(dag, node[i], i, node, degree);
-    if (good) *k = degree[n - 1], w->potential = V;
-    nh_free(degree);
-    nh_nodes_free(&node);
-    return good;
 }
 
 /* sum q dV/dq */
@@ -124,7 +56,8 @@ static const char *read_degree(nh_darboux_work *w)
 {
     enum { silent = 2, most_degree = 100 };
     nh_num k;
-    if (!degree_by_terms(w, &k) && !degree_by_euler(w, &k)) return "the potential is not homogeneous";
+    if (!nh_darboux_degree(w->dag, w->n, w->q, &w->potential, &k) && !degree_by_euler(w, &k))
+        return "the potential is not homogeneous";
     if (!nh_num_short(k) || k.q != 1 || k.p > most_degree || k.p < -most_degree)
         return "the potential is not homogeneous of a whole degree";
     w->out->degree = (long)k.p;
@@ -144,7 +77,8 @@ static const char *read_system(nh_darboux_work *w, const nh_closed_shape *shape)
         if (system->parameter[i].input && nh_depends(w->dag, system->lagrangian, system->parameter[i].symbol))
             return "the Lagrangian contains an input, which may change with time";
     const char *obstacle = read_inertia(w, L);
-    if (!obstacle) obstacle = read_kinds(w, w->potential);
+    if (!obstacle && !nh_darboux_algebraic(w->dag, w->n, w->q, w->potential, &w->out->roots))
+        obstacle = "the potential contains more than powers and roots of the coordinates";
     if (!obstacle) obstacle = read_degree(w);
     return obstacle;
 }
@@ -185,7 +119,8 @@ static void find_lines(nh_darboux_work *w)
 {
     for (size_t i = 0; i < w->n; i++) w->slope[i] = nh_diff(w->dag, w->potential, w->q[i]);
     for (size_t i = 0; i < w->n * w->n; i++) w->second[i] = nh_diff(w->dag, w->slope[i / w->n], w->q[i % w->n]);
-    if (!nh_darboux_plane(w)) try_simple_lines(w);
+    w->plane = nh_darboux_plane(w);
+    if (!w->plane) try_simple_lines(w);
     nh_darboux *out = w->out;
     if (out->refuted) return;
     out->obstacle = !out->points     ? "no straight motion was found"
@@ -211,6 +146,7 @@ nh_darboux *nh_darboux_of(nh_arena *arena, const nh_closed_shape *shape)
     out->obstacle = read_system(&w, shape);
     out->applies = !out->obstacle;
     if (out->applies) find_lines(&w);
+    if (out->refuted && !out->generic) out->generic = nh_darboux_generic(&w, system);
     fmpq_mat_clear(w.inertia);
     fmpq_mat_clear(w.inverse);
     return out;

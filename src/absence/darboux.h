@@ -28,7 +28,7 @@ typedef struct {
     size_t points, undecided; /* lines found; with eigenvalues that were not decided */
     bool refuted;
     bool roots;   /* the potential contains roots: meromorphic in positions, velocities and these */
-    bool generic; /* the Lagrangian has no parameters; else it holds at their given values */
+    bool generic; /* for all values of the parameters but countably many hypersurfaces; else at their given values */
     nh_darboux_refutation refutation;
 } nh_darboux;
 

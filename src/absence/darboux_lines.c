@@ -1,4 +1,6 @@
 /* darboux_lines: straight lines c with V'(c) = mu M c, and the eigenvalues of M^-1 V''(c)/mu. */
+#include <string.h>
+
 #include <flint/fmpz_poly_factor.h>
 
 #include "absence/darboux_internal.h"
@@ -106,7 +108,7 @@ void nh_darboux_try(nh_darboux_work *w, const long *c)
     fmpq_mat_t second, matrix;
     fmpq_mat_init(second, (slong)w->n, (slong)w->n);
     fmpq_mat_init(matrix, (slong)w->n, (slong)w->n);
-    bool rational = true;
+    bool rational = true, was = w->out->refuted;
     for (size_t i = 0; i < w->n * w->n && rational; i++) {
         nh_ex entry = nh_div(w->dag, nh_rational_value_at(&place, w->second[i]), mu);
         rational = nh_rational_value_of(w->dag, entry, fmpq_mat_entry(second, (slong)(i / w->n), (slong)(i % w->n)));
@@ -114,6 +116,7 @@ void nh_darboux_try(nh_darboux_work *w, const long *c)
     if (rational) {
         fmpq_mat_mul(matrix, w->inverse, second);
         test_matrix(w, matrix, c);
+        if (w->out->refuted && !was) memcpy(w->line, c, w->n * sizeof *c);
     } else {
         w->out->undecided++;
     }
