@@ -191,7 +191,7 @@ Test(darboux, three_coordinates)
         {"x^3 + y^3 + z^3", 3, 7, NULL, NULL},
         {"(x^2 + y^2 + z^2)^2", 4, 13, NULL, NULL},
         {"-1/sqrt(x^2 + y^2 + z^2)", -1, 13, NULL, NULL},
-        {"z*(x^2 + 3*x*y + 4*y^2) - z^3/3", 3, 1, "c = (0, 0, 1)", "a root of lambda^2 + 10*lambda + 7"},
+        {"z*(x^2 + 3*x*y + 4*y^2) - z^3/3", 3, 1, "c = (0, 0, 1)", "3*sqrt(2) - 5"},
         {"z*(x^2 + y^2) - z^3/3", 3, 1, "c = (0, 0, 1)", "-2"},
         {"x^2*y^2*z^2", 6, 4, "c = (1, 1, 1)", "-1"},
         {"x*y*z", 3, 4, "c = (1, 1, 1)", "-1"},
@@ -201,6 +201,20 @@ Test(darboux, three_coordinates)
         expect(&list[i], darboux_of(arena, true, "(x'^2 + y'^2 + z'^2)/2", list[i].V, ""));
         nh_arena_free(arena);
     }
+}
+
+/* Along the last of four coordinates: V'' there is -2 beside 2 (1, 1, 0; 1, 2, 1; 0, 1, 4), mu = -1. */
+Test(darboux, four_coordinates)
+{
+    nh_arena *arena = nh_arena_create();
+    mechanics x = mechanics_of_text("name: four\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}, {name: s, type: length}]\n"
+                                    "lagrangian: (x'^2 + y'^2 + z'^2 + s'^2)/2 - s*(x^2 + 2*x*y + 2*y^2 + 2*y*z + 4*z^2) + s^3/3\n", NH_CHART_AUTO);
+    nh_closed_shape shape = {.model = x.model};
+    nh_darboux *out = nh_darboux_of(arena, &shape);
+    const potential cubic = {"four coordinates", 3, 1, "c = (0, 0, 0, 1)", "lambda, lambda^3 + 14*lambda^2 + 48*lambda + 24 = 0"};
+    expect(&cubic, out);
+    mechanics_clear(&x);
+    nh_arena_free(arena);
 }
 
 /* Parameters at their values: decimals are ratios.  What the theorem does not speak of. */

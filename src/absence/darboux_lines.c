@@ -10,6 +10,7 @@
 #include "exact/normal.h"
 #include "graph/dag.h"
 #include "graph/monomials.h"
+#include "graph/print.h"
 
 void nh_darboux_refute(nh_darboux_work *w, const char *point, const char *eigenvalue)
 {
@@ -31,6 +32,34 @@ static const char *line_words(const nh_darboux_work *w, const long *c)
     return out;
 }
 
+/* One root of an irreducible polynomial: "3*sqrt(2) - 5", or "lambda, lambda^3 + lambda + 1 = 0". */
+static const char *root_words(const nh_darboux_work *w, const fmpz_poly_t g)
+{
+    const char *out = NULL;
+    fmpq_t half, square;
+    fmpq_init(half);
+    fmpq_init(square);
+    if (fmpz_poly_degree(g) == 2) { /* h +- sqrt(h^2 - c/a) with h = -b/(2 a) */
+        fmpq_set_fmpz_frac(half, fmpz_poly_get_coeff_ptr(g, 1), fmpz_poly_get_coeff_ptr(g, 2));
+        fmpq_div_2exp(half, half, 1);
+        fmpq_neg(half, half);
+        fmpq_set_fmpz_frac(square, fmpz_poly_get_coeff_ptr(g, 0), fmpz_poly_get_coeff_ptr(g, 2));
+        fmpq_neg(square, square);
+        fmpq_addmul(square, half, half);
+    }
+    if (fmpq_sgn(square) > 0) {
+        nh_ex root = nh_sqrt(w->dag, nh_rational_value_number(w->dag, square));
+        char *text = nh_print_string(w->dag, nh_add(w->dag, nh_rational_value_number(w->dag, half), root));
+        out = nh_arena_strdup(w->arena, text);
+        nh_free(text);
+    } else {
+        out = nh_arena_printf(w->arena, "lambda, %s = 0", nh_polynomial_text_whole(w->arena, g, "lambda"));
+    }
+    fmpq_clear(half);
+    fmpq_clear(square);
+    return out;
+}
+
 /* The eigenvalues: each root of an irreducible factor of degree > 1 is not rational. */
 static void test_matrix(nh_darboux_work *w, const fmpq_mat_t matrix, const long *c)
 {
@@ -48,8 +77,7 @@ static void test_matrix(nh_darboux_work *w, const fmpq_mat_t matrix, const long 
     for (slong i = 0; i < parts->num && !w->out->refuted; i++) {
         const fmpz_poly_struct *g = parts->p + i;
         if (fmpz_poly_degree(g) > 1) {
-            const char *text = nh_polynomial_text_whole(w->arena, g, "lambda");
-            nh_darboux_refute(w, line_words(w, c), nh_arena_printf(w->arena, "a root of %s", text));
+            nh_darboux_refute(w, line_words(w, c), root_words(w, g));
             continue;
         }
         fmpq_set_fmpz_frac(lambda, fmpz_poly_get_coeff_ptr(g, 0), fmpz_poly_get_coeff_ptr(g, 1));
@@ -185,7 +213,7 @@ static void plane_fill(plane *p, const nh_darboux_work *w, const fmpq_poly_t f)
     add_multiple(p->trace, yy, p->yy);
 }
 
-static const char *root_words(const nh_darboux_work *w, const fmpz_poly_t g)
+static const char *direction_words(const nh_darboux_work *w, const fmpz_poly_t g)
 {
     if (fmpz_poly_degree(g) > 1)
         return nh_arena_printf(w->arena, "c = (1, s), %s = 0", nh_polynomial_text_whole(w->arena, g, "s"));
@@ -220,7 +248,7 @@ static void test_factor(nh_darboux_work *w, const plane *p, const fmpz_poly_t g)
         fmpq_poly_rem(lambda, lambda, f);
         fmpq_poly_get_coeff_fmpq(value, lambda, 0);
         if (fmpq_poly_degree(lambda) > 0 || !nh_darboux_allowed(w->out->degree, value))
-            nh_darboux_refute(w, root_words(w, g), nh_polynomial_text(w->arena, lambda, "s"));
+            nh_darboux_refute(w, direction_words(w, g), nh_polynomial_text(w->arena, lambda, "s"));
     }
     fmpq_clear(value);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) fmpq_poly_clear(all[i]);

@@ -168,13 +168,14 @@ static void bound_span(nh_resonance *out, const fmpz_poly_t f)
     fmpz_poly_factor(parts, f);
     size_t most = most_span(parts), squares = span_of_squares(parts);
     fmpz_poly_factor_clear(parts);
-    out->span = squares ? squares : most > 0;
     ulong p = before_prime;
     for (int i = 0; i < primes && out->span < most; i++) {
         p = n_nextprime(p, 1);
         size_t span = span_modulo(f, p);
         if (span > out->span) out->span = span, out->prime = p;
     }
+    if (!squares) squares = most > 0;
+    if (squares > out->span) out->span = squares, out->prime = 0;
 }
 
 /* ---- diagonalizable ---- */

@@ -94,6 +94,7 @@ static void keep(work *w, nh_resonance *resonance)
     nh_ex *value = nh_arena_alloc(w->arena, w->shape->count * sizeof *value);
     memcpy(value, w->value, w->shape->count * sizeof *value);
     resonance->value = value;
+    for (size_t i = w->shape->coordinates; i < w->shape->count; i++) resonance->steady |= !nh_is_zero(w->dag, value[i]);
     resonance->point = words(w);
     nh_grow(&w->found, &w->capacity, w->count + 1, sizeof *w->found);
     size_t at = w->count++;
