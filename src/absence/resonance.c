@@ -13,7 +13,7 @@
 enum {
     primes = 40,         /* that are tried */
     before_prime = 1000, /* the first is above it */
-    most_field = 12      /* degree of the field that holds the roots modulo p */
+    most_field = 24      /* degree of the field that holds the roots modulo p */
 };
 
 /* ---- the span of the roots modulo a prime ---- */
