@@ -338,24 +338,25 @@ static void put_unused(const writer *w)
 
 static void put_rest(const writer *w, const nh_resonance *e)
 {
+    const char *what = e->steady ? "the steady motion" : "the state of rest";
     if (e->at_most + 1 < e->letters) {
         if (e->at_most)
-            nh_text_addf(w->out, "Near the state of rest %s at most %zu independent first integral%s of ",
-                         formula(w, e->point), e->at_most, plural(e->at_most));
+            nh_text_addf(w->out, "Near %s %s at most %zu independent first integral%s of ", what, formula(w, e->point),
+                         e->at_most, plural(e->at_most));
         else
-            nh_text_addf(w->out, "Near the state of rest %s only constants among the first integrals of ",
-                         formula(w, e->point));
+            nh_text_addf(w->out, "Near %s %s only constants among the first integrals of ", what, formula(w, e->point));
         put_equations(w);
         nh_text_addf(w->out,
                      " %s real-analytic, or %s of real-analytic functions (theorem; the eigenvalues there "
-                     "span at least %zu dimensions over the rational numbers%s; proved modulo %zu).",
+                     "span at least %zu dimension%s over the rational numbers%s",
                      e->at_most == 1 ? "is" : "are", e->at_most == 1 ? "a quotient" : "quotients", e->span,
-                     e->diagonalizable ? "" : ", and the linear equations cannot be diagonalized", (size_t)e->prime);
+                     plural(e->span), e->diagonalizable ? "" : ", and the linear equations cannot be diagonalized");
+        if (e->prime) nh_text_addf(w->out, "; proved modulo %zu", (size_t)e->prime);
+        nh_text_add(w->out, ").");
     }
     if (e->divergence)
-        nh_text_addf(w->out,
-                     "%sNo measure with a positive density of class C^1 is preserved near the state of rest %s.",
-                     e->at_most + 1 < e->letters ? " " : "", formula(w, e->point));
+        nh_text_addf(w->out, "%sNo measure with a positive density of class C^1 is preserved near %s %s.",
+                     e->at_most + 1 < e->letters ? " " : "", what, formula(w, e->point));
 }
 
 /* ---- all sentences ---- */

@@ -242,7 +242,9 @@ static void rest(nh_pen *p, const nh_analysis *r)
 {
     const nh_absence *a = r->absence;
     if (!a->resonances) return;
-    nh_pen_table(p, "States of rest: at most so many integrals are real-analytic near them, or quotients of such",
+    nh_pen_table(p,
+                 "States of rest and steady motions: at most so many integrals are real-analytic near them, or "
+                 "quotients of such",
                  "state|characteristic polynomial|#letters|#span of the eigenvalues|#at most|prime");
     for (size_t i = 0; i < a->resonances; i++) {
         const nh_resonance *e = a->resonance[i];
@@ -254,7 +256,8 @@ static void rest(nh_pen *p, const nh_analysis *r)
         nh_pen_cell(p, NH_PEN_CELL, "%zu", e->letters);
         nh_pen_cell(p, NH_PEN_CELL, "%zu", e->span);
         nh_pen_cell(p, NH_PEN_CELL, "%zu", e->at_most);
-        nh_pen_cell(p, NH_PEN_CELL, "%zu", (size_t)e->prime);
+        if (e->prime) nh_pen_cell(p, NH_PEN_CELL, "%zu", (size_t)e->prime);
+        else nh_pen_cell(p, NH_PEN_CELL, "%s", "");
         nh_pen_close(p, NH_PEN_ROW);
     }
     nh_pen_table_end(p);
