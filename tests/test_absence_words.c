@@ -349,6 +349,43 @@ Test(absence_words, json)
     end(&x);
 }
 
+/* Every member stands in the schema, and every one that is required is there. */
+static void fits(const cJSON *schema, const cJSON *v, const char *name)
+{
+    for (const cJSON *m = cJSON_IsObject(v) ? v->child : NULL; m; m = m->next) {
+        const cJSON *own = cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItem(schema, "properties"), m->string);
+        cr_assert_not_null(own, "%s.%s is not in the schema", name, m->string);
+        fits(own, m, m->string);
+    }
+    const cJSON *required = cJSON_IsObject(v) ? cJSON_GetObjectItem(schema, "required") : NULL;
+    for (const cJSON *key = required ? required->child : NULL; key; key = key->next) at(v, key->valuestring);
+    for (const cJSON *e = cJSON_IsArray(v) ? v->child : NULL; e; e = e->next) fits(cJSON_GetObjectItem(schema, "items"), e, name);
+}
+
+Test(absence_words, schema)
+{
+    answer x;
+    make(&x, PLANE, 0);
+    x.a.resonances = 1, x.a.resonance = x.rests, x.a.darboux = &x.darboux;
+    x.attempt[0].monodromy = &x.monodromy;
+    x.attempt[1].residues = &x.residues;
+    FILE *file = fopen("docs/schema/analyze.json", "r");
+    cr_assert_not_null(file);
+    nh_text text;
+    nh_text_init(&text);
+    char part[4096];
+    for (size_t n; (n = fread(part, 1, sizeof part, file)) > 0;) nh_text_add_n(&text, part, n);
+    fclose(file);
+    char *json = nh_analysis_json(x.r);
+    cJSON *schema = cJSON_Parse(nh_text_string(&text)), *root = cJSON_Parse(json);
+    const cJSON *whole = cJSON_GetArrayItem(at(schema, "oneOf"), 0);
+    fits(at(at(whole, "properties"), "absence"), at(root, "absence"), "absence");
+    cJSON_Delete(schema), cJSON_Delete(root);
+    nh_text_clear(&text);
+    nh_free(json);
+    end(&x);
+}
+
 /* No class where nothing is excluded: a reader of the JSON must not take the bound of nothing for one. */
 Test(absence_words, json_of_nothing)
 {
