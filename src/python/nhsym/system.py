@@ -232,7 +232,7 @@ class System:
     # ---- questions ----
 
     def analyze(self, accuracy: Optional[float] = None, until: Optional[float] = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None,
-                absence: bool = False) -> Analysis:
+                *, absence: bool = False) -> Analysis:
         """Currents and their symmetries.
 
         Parameters
