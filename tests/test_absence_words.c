@@ -197,7 +197,7 @@ Test(absence_words, at_most)
     x.attempt[0].monodromy = &x.monodromy;
     x.attempt[0].orbit = 4, x.equation[0].dimension = 5, x.equation[0].blocks = 2;
     says(&x, "At most 3 independent first integrals of the equations of x, y, x', y' are meromorphic near the complex motions x = 0 of energy 1/7 (theorem; the monodromy of their normal variational equation moves a general vector in 4 of 5 dimensions, taken on its 2 blocks together; proved in balls of 512 bits); 1 is known. "
-             "Also excluded: finitely many-valued ones. "
+             "So too where finitely many-valued ones are counted. "
              "Not excluded: integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, and integrals that contain t.");
     says_briefly(&x, "At most 3 independent first integrals of the equations of x, y, x', y' are meromorphic near the complex motions x = 0 of energy 1/7 (theorem; monodromy, in balls); 1 is known. Not excluded: ones with other singularities there, smooth ones, ones that contain t.");
     end(&x);
@@ -211,6 +211,29 @@ Test(absence_words, liouville)
     x.equation[0].dimension = 4;
     says(&x, "Not integrable in the sense of Liouville: the equations of x, y, x', y' do not have as many independent first integrals in involution as degrees of freedom, all of them meromorphic near the complex motions x = 0 of energy 1/7 (theorem; a block of their normal variational equation has the Galois group SL(2); proved modulo 1073742391; so too for all values of the parameters outside countably many hypersurfaces). "
              "Not excluded: a further integral alone, integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, and integrals that contain t.");
+    end(&x);
+}
+
+/* A block with SL(2) beside others: the group may have a torus, which sees periodic integrals only.  Against commuting integrals the block is enough. */
+Test(absence_words, one_block)
+{
+    answer x;
+    make(&x, TURNING, 1);
+    x.a.verdict = NH_ABSENCE_AT_MOST;
+    x.a.at_most = 2, x.a.known = 1;
+    x.equation[0].dimension = 3, x.equation[0].blocks = 2;
+    cr_expect_eq(nh_absence_parts_reason_of(&x.a), NH_ABSENCE_BY_BLOCK);
+    cr_expect(strstr(nh_absence_words_sentence(x.r), " and 2 pi-periodic in theta (theorem; a block of their normal variational equation has the Galois group SL(2)"), "%s", nh_absence_words_sentence(x.r));
+    x.a.verdict = NH_ABSENCE_LIOUVILLE;
+    cr_expect_null(strstr(nh_absence_words_sentence(x.r), "periodic"));
+    x.kovacic.group = NH_GROUP_TRIANGULAR;
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "2 pi-periodic in theta (theorem; the Galois group of their normal variational equation is not virtually abelian"), "%s", nh_absence_words_sentence(x.r));
+    /* balls on the direct sum */
+    x.kovacic.group = NH_GROUP_SL2;
+    x.a.verdict = NH_ABSENCE_NONE_ELSE;
+    x.attempt[0].monodromy = &x.monodromy, x.attempt[0].orbit = x.equation[0].dimension = 4;
+    cr_expect_eq(nh_absence_parts_reason_of(&x.a), NH_ABSENCE_BY_MONODROMY);
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "2 pi-periodic in theta"), "%s", nh_absence_words_sentence(x.r));
     end(&x);
 }
 
@@ -268,9 +291,14 @@ Test(absence_words, states_of_rest)
     x.a.resonance = x.rests;
     x.rest.divergence = true;
     says(&x, "Not decided whether there is any other integral. Nothing is excluded by this, and nothing is found. "
-             "Near the state of rest x = 0, x' = 0 at most 1 independent first integral of the equations of s, theta, s', theta', z' is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101). No measure with a positive density of class C^1 is preserved near the state of rest x = 0, x' = 0.");
-    says_briefly(&x, "Near the state of rest x = 0, x' = 0 at most 1 independent first integral of the equations of s, theta, s', theta', z' is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101).");
-    x.rest.divergence = false;
+             "Near x = 0, x' = 0, where the equations of s, theta, s', theta', z' rest, at most 1 independent first integral of theirs is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101). No measure with a positive density of class C^1 is preserved near x = 0, x' = 0.");
+    says_briefly(&x, "Near x = 0, x' = 0, where the equations of s, theta, s', theta', z' rest, at most 1 independent first integral of theirs is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101).");
+    /* no prime was needed */
+    x.rest = (nh_resonance){.point = "x = 0, x' = 0", .polynomial = "x^5", .letters = 5, .span = 1, .diagonalizable = false, .at_most = 3};
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "at most 3 independent first integrals of theirs are real-analytic, or quotients of real-analytic functions (theorem; the eigenvalues there span at least 1 dimension over the rational numbers, and the linear equations cannot be diagonalized)."),
+              "%s", nh_absence_words_sentence(x.r));
+    x.rest.at_most = 0;
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "rest, of their first integrals only constants are real-analytic, or quotients"), "%s", nh_absence_words_sentence(x.r));
     x.rest.at_most = 4; /* as everywhere */
     says(&x, "Not decided whether there is any other integral. Nothing is excluded by this, and nothing is found.");
     says_briefly(&x, NULL);
