@@ -461,11 +461,12 @@ Test(absence_words, documents)
     char *plain = document(&x, NH_PEN_TEXT), *page = document(&x, NH_PEN_PAGE), *tex = document(&x, NH_PEN_LATEX);
     has(plain, "Other integrals\n");
     has(plain, "No other integral: every first integral of the equations of x, y, x', y'");
-    has(plain, "Normal form: u'' = r*u, r = (3*x^2-x+7)/(x^4 - 2)");
+    has(plain, "Normal form: u'' = r*u, r = (3*x^2 - x + 7)/(x^4 - 2)");
     has(plain, "Only what costs little was tried");
     has(page, "<section id=\"absence\">");
     has(page, "href=\"#absence\"");
     has(page, "Why the group is SL(2)");
+    has(page, "Motions that were tried, and the normal variational equations along them");
     has(tex, "Other integrals");
     has(tex, "\\sqrt{x^{2} + y^{2}}");
     free(plain), free(page), free(tex);
@@ -475,7 +476,7 @@ Test(absence_words, documents)
     x.a.everything = true;
     plain = document(&x, NH_PEN_TEXT);
     has(plain, "at least 4 of 4 dimensions");
-    has(plain, "4 in 2 blocks");
+    has(plain, "x = 0, level 1/7: y'^2 = 2/7 - y^2 + 2/3*y^3; normal equation of size 4 in 2 blocks; group: moves in 4 of 4 dimensions");
     has(plain, "-1.25");
     cr_expect_null(strstr(plain, "Only what costs little"));
     free(plain);

@@ -71,6 +71,20 @@ static const char *factor(nh_arena *arena, const char *coefficient)
     return nh_arena_printf(arena, sum ? "(%s)" : "%s", coefficient);
 }
 
+/* "x^2 - 2" of FLINT's "x^2-2", so that lines can be broken. */
+static const char *spaced(nh_arena *arena, const char *polynomial)
+{
+    nh_text text;
+    nh_text_init(&text);
+    for (const char *c = polynomial; *c; c++) {
+        bool sign = (*c == '+' || *c == '-') && c > polynomial && c[-1] != ' ' && c[-1] != '(' && c[-1] != '^';
+        nh_text_addf(&text, sign ? " %c " : "%c", *c);
+    }
+    const char *out = nh_arena_strdup(arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return out;
+}
+
 static const char *equation_text(nh_arena *arena, const nh_absence_attempt *t)
 {
     const char *text = "u''";
@@ -109,10 +123,34 @@ static void attempt_row(nh_pen *p, const nh_analysis *r, const nh_absence_attemp
     nh_free(level);
 }
 
+/* The same on a terminal, where a table would be too wide. */
+static void attempt_fact(nh_pen *p, const nh_analysis *r, const nh_absence_attempt *t)
+{
+    const nh_normal_equation *e = t->equation;
+    char *level = nh_print_string(r->question->model->dag, e->level);
+    nh_pen_fact_begin(p, nh_arena_printf(r->arena, "%s, level %s", e->plane->words, level));
+    if (e->curve) nh_pen_say(p, "%s; ", e->curve);
+    if (e->obstacle) nh_pen_say(p, "no normal equation: %s", e->obstacle);
+    else nh_pen_say(p, "normal equation of size %zu", e->dimension);
+    if (!e->obstacle && e->blocks > 1)
+        nh_pen_say(p, " in %zu blocks%s", e->blocks, e->triangular ? ", triangular" : "");
+    if (!e->obstacle) nh_pen_say(p, "; group: %s", nh_absence_parts_group(r->arena, t));
+    if (t->obstacle) nh_pen_say(p, ", %s", t->obstacle);
+    nh_pen_close(p, NH_PEN_FACT);
+    nh_free(level);
+}
+
 static void motions(nh_pen *p, const nh_analysis *r)
 {
     const nh_absence *a = r->absence;
     if (!a->attempts) return;
+    if (p->ink->brief) {
+        nh_pen_heading(p, "Motions that were tried");
+        nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+        for (size_t i = 0; i < a->attempts; i++) attempt_fact(p, r, &a->attempt[i]);
+        nh_pen_close(p, NH_PEN_FACTS);
+        return;
+    }
     nh_pen_table(p, "Motions that were tried, and the normal variational equations along them",
                  "plane|level|motion|equations|group");
     for (size_t i = 0; i < a->attempts; i++) attempt_row(p, r, &a->attempt[i]);
@@ -157,7 +195,8 @@ static void kovacic_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     equation_facts(p, arena, t);
     nh_pen_fact_begin(p, "Normal form");
-    nh_pen_say(p, "<%s>, <%s>", "u'' = r*u", nh_arena_printf(arena, "r = (%s)/(%s)", k->r_num, k->r_den));
+    nh_pen_say(p, "<%s>, <%s>", "u'' = r*u",
+               nh_arena_printf(arena, "r = (%s)/(%s)", spaced(arena, k->r_num), spaced(arena, k->r_den)));
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact(p, "Singular points", "%s, infinity included", k->regular ? "all regular" : "some irregular");
     if (k->prime) nh_pen_fact(p, "Prime", "%zu", (size_t)k->prime);
@@ -259,7 +298,7 @@ static void rest(nh_pen *p, const nh_analysis *r)
         nh_pen_open(p, NH_PEN_ROW_HEAD, NULL, NULL);
         put_formulas(p, r->arena, e->point);
         nh_pen_close(p, NH_PEN_ROW_HEAD);
-        nh_pen_cell(p, NH_PEN_CELL, "<%s>", e->polynomial);
+        nh_pen_cell(p, NH_PEN_CELL, "<%s>", spaced(r->arena, e->polynomial));
         nh_pen_cell(p, NH_PEN_CELL, "%zu", e->letters);
         nh_pen_cell(p, NH_PEN_CELL, "%zu", e->span);
         nh_pen_cell(p, NH_PEN_CELL, "%zu", e->at_most);
