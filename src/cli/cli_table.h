@@ -148,7 +148,7 @@ bool nh_word_among(const char *words, const char *word);
     X("over", "linearize", "values of a parameter, a coordinate or a velocity: \"x'=0:10:101\"")                       \
     X("project", "linearize", "move positions and velocities onto the constraints")                                    \
     X("of", "verify", "the field is a symmetry of this: constraint, or equations (of motion)")                         \
-    X("of", "classify", "the question: currents, measure, hamiltonization, symmetries or constraints")                 \
+    X("of", "classify", "the question: currents, measure, hamiltonization, symmetries, constraints or absence")        \
     X("of", "scan", "which numbers: count (of integrals), analyze or reduce")                                          \
     X("of", "export", "the parts: equations, momenta, submanifold, currents, reduced")                                 \
     X("of", "show", "only these names, one per line: parameters, coordinates, velocities")                             \
