@@ -34,7 +34,8 @@ nh_absence_parts_reason nh_absence_parts_reason_of(const nh_absence *a)
     if (t->equation->dimension == 1 && by_residue(t->residues) != NH_ABSENCE_BY_NOTHING) return by_residue(t->residues);
     if (special && t->equation->dimension == 2 && t->orbit == 2) return NH_ABSENCE_BY_GROUP;
     if (a->verdict == NH_ABSENCE_LIOUVILLE && special) return NH_ABSENCE_BY_BLOCK;
-    if (a->verdict == NH_ABSENCE_LIOUVILLE && triangular) return NH_ABSENCE_BY_TRIANGULAR;
+    if (triangular && (a->verdict == NH_ABSENCE_LIOUVILLE || (t->equation->dimension == 2 && t->orbit == 2)))
+        return NH_ABSENCE_BY_TRIANGULAR;
     if (t->monodromy && t->monodromy->rank >= t->orbit) return NH_ABSENCE_BY_MONODROMY;
     return special ? NH_ABSENCE_BY_BLOCK : NH_ABSENCE_BY_NOTHING;
 }
@@ -51,7 +52,7 @@ bool nh_absence_parts_periodic(const nh_absence *a)
 const char *nh_absence_parts_group(nh_arena *arena, const nh_absence_attempt *t)
 {
     const nh_kovacic *k = t->kovacic;
-    static const char *const groups[] = {"SL(2)", "not virtually abelian", "open", "undecided"};
+    static const char *const groups[] = {"SL(2)", "SL(2) or triangular", "open", "undecided"};
     if (k && (k->group == NH_GROUP_SL2 || k->group == NH_GROUP_TRIANGULAR)) return groups[k->group];
     if (t->residues && t->residues->verdict == NH_RESIDUE_MEROMORPHIC) return "a residue is not rational";
     if (t->residues && t->residues->verdict == NH_RESIDUE_RATIONAL) return "infinite, by an irregular point";

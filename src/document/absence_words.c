@@ -194,7 +194,7 @@ static void put_reason(const writer *w)
         put_prime(w, t->kovacic->prime);
         break;
     case NH_ABSENCE_BY_TRIANGULAR:
-        nh_text_addf(w->out, "the Galois group of %s is not virtually abelian", their_equation);
+        nh_text_addf(w->out, "the Galois group of %s is SL(2) or triangular, of dimension 2", their_equation);
         put_prime(w, t->kovacic->prime);
         break;
     case NH_ABSENCE_BY_RESIDUE:

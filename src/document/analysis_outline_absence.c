@@ -191,7 +191,8 @@ static void invariants(nh_pen *p, const nh_kovacic *k)
 static void kovacic_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *t)
 {
     const nh_kovacic *k = t->kovacic;
-    nh_pen_heading(p, k->group == NH_GROUP_SL2 ? "Why the group is SL(2)" : "Why the group is not virtually abelian");
+    nh_pen_heading(p, k->group == NH_GROUP_SL2 ? "Why the group is SL(2)"
+                                               : "Why the group is SL(2) or triangular, of dimension 2");
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     equation_facts(p, arena, t);
     nh_pen_fact_begin(p, "Normal form");
