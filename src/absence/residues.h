@@ -10,7 +10,11 @@ typedef enum { NH_RESIDUE_MEROMORPHIC, NH_RESIDUE_RATIONAL, NH_RESIDUE_OPEN } nh
 
 typedef struct {
     nh_residue_verdict verdict;
-    const char *factor, *residue; /* the factor of the denominator, the residue there as a polynomial modulo it */
+    /* The factor of the denominator that decides, "x^2 + 2", irreducible over Q; "1/x": the point at infinity.  NULL: the
+     * verdict is NH_RESIDUE_OPEN. */
+    const char *factor;
+    const char *residue; /* there: a polynomial in x modulo the factor; at infinity a number */
+    slong order;         /* of the pole there, in the coefficient a; at infinity of a(1/u)/u^2 at u = 0 */
 } nh_residues;
 
 /* Of an equation of size 1; in the arena. */

@@ -25,8 +25,9 @@ typedef struct {
 typedef struct {
     nh_arena *arena;
     nh_system *system;
-    const char *over;  /* the parameter */
-    const char *range; /* "from 1/2 to 5, fractions with denominators up to 4", "in the list, and special values between" */
+    const char *over; /* the parameter */
+    const char
+        *range; /* "from 1/2 to 5, fractions with denominators up to 4", "in the list, and special values between" */
     size_t values, capacity;
     nh_classified_value *value; /* ascending */
     size_t fewest;              /* integrals that are found at the value with the fewest */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "absence/absence.h"
 #include "base/foreign_memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -100,7 +101,10 @@ bool nh_answer_is_figure(const char *text, size_t number) { return nh_html_is_fi
 
 static bool analysis_create(nh_answer *a, nh_error *error)
 {
-    return (a->part[0] = nh_analysis_create(a->request, error)) != NULL;
+    nh_analysis *result = nh_analysis_create(a->request, error);
+    a->part[0] = result;
+    if (result && !a->request->model_only && !nh_interrupted()) nh_absence_find(result, a->request->absence);
+    return result != NULL;
 }
 
 static void analysis_free(nh_answer *a) { nh_analysis_free(a->part[0]); }
@@ -121,6 +125,8 @@ static int analysis_code(const nh_answer *a, nh_error *error)
                 v ? v->accuracy.why : "no motion was computed, so the requested accuracy was not reached");
     if (result->counted_space.compared && !result->counted_space.agrees)
         nh_fail(error, NH_NUMERIC, "", "the sampled problem and the count disagree: one of them is wrong");
+    if (result->absence && result->absence->contradiction)
+        nh_fail(error, NH_NUMERIC, "", "%s: one of them is wrong", result->absence->contradiction);
     return nh_answer_code(result->partial, error);
 }
 
