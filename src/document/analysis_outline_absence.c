@@ -291,7 +291,8 @@ static void rest(nh_pen *p, const nh_analysis *r)
 {
     const nh_absence *a = r->absence;
     if (!a->resonances) return;
-    nh_pen_table(p, "States of rest and steady motions: at most so many integrals are real-analytic near them, or "
+    nh_pen_table(p,
+                 "States of rest and steady motions: at most so many integrals are real-analytic near them, or "
                  "quotients of such",
                  "state|characteristic polynomial|#letters|#span of the eigenvalues|#at most|prime");
     for (size_t i = 0; i < a->resonances; i++) {
