@@ -170,6 +170,27 @@ Test(schema, what_classify_writes_fits, PLAIN_ONLY)
     place_clear(&p);
 }
 
+Test(schema, what_classify_of_absence_writes_fits)
+{
+    cJSON *schema = read_json("docs/schema/classification.json");
+    place p = place_make();
+    char line[600], path[PATH_MAX + 30];
+    snprintf(line, sizeof line, "classify %.300s/tests/data/classify/henon_heiles.yaml --over eps=1,2 --of absence --set B=1 --degree 2 --quiet --json c.json", p.project);
+    finished f = run(&p, line);
+    cr_assert(f.code == 0, "%s: %s", line, f.err);
+    snprintf(path, sizeof path, "%s/c.json", p.folder);
+    cJSON *root = read_json(path);
+    verdict v = {""};
+    cr_expect(fits(schema, root, "", &v), "%s", v.fault);
+    cr_expect_eq(cJSON_GetArraySize(cJSON_GetObjectItem(root, "values")), 2);
+    cJSON_AddNumberToObject(cJSON_GetArrayItem(cJSON_GetObjectItem(root, "values"), 0), "more", 1);
+    cr_expect_not(fits(schema, root, "", &v), "an unknown key");
+    cJSON_Delete(root);
+    finished_clear(&f);
+    cJSON_Delete(schema);
+    place_clear(&p);
+}
+
 Test(schema, what_scan_writes_fits)
 {
     static const char *const lines[] = {"henon_heiles.yaml --over B=1,2 --over eps=0.1:2.1:5", "atwood.yaml --over mu=1,3/2 --of reduce"};

@@ -73,6 +73,9 @@
       "classify: of residues that looking for the values of one degree may take")                                      \
     X(theorem, 150, 0, 1e5, whole, "primes",                                                                           \
       "classify: the largest number for a proof about every real and complex number; 0: no such proof")                \
+    X(absence, 0, 0, 1, whole, "",                                                                                     \
+      "analyze: 1: all motions, levels and methods for the question whether there is any other integral, as "          \
+      "--absence; 0: the cheap ones")                                                                                  \
     X(lifts, 0, 0, 1, whole, "", "1: lifts orthogonal by --inner, 0: by kinetic energy")                               \
     X(shown, 600, 10, 1e9, whole, "symbols", "documents omit formulas four times as long")                             \
     X(written, 1e6, 10, 1e9, whole, "symbols", "longer formulas are null in JSON")                                     \

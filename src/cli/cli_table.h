@@ -47,6 +47,8 @@ bool nh_word_among(const char *words, const char *word);
     X(opt_field, "field", required_argument, "\"Z0=..; x=..\"", "verify", "is this a constraint symmetry?")            \
     X(opt_equations, "equations", no_argument, "", "analyze verify reduce show",                                       \
       "also the geometry: forms, Gamma, determining equations; connection, curvature, H")                              \
+    X(opt_absence, "absence", no_argument, "", "analyze",                                                              \
+      "is there any other integral: all motions, levels and methods, not only the cheap ones")                         \
     X(opt_initial, "initial", required_argument, "\"phi=0, omega=2\"", "simulate benchmark reduce export",             \
       "initial state")                                                                                                 \
     X(opt_at, "at", required_argument, "\"x'=4, lean=0\"", "linearize", "the state; all else is 0 or follows")         \
@@ -146,7 +148,7 @@ bool nh_word_among(const char *words, const char *word);
     X("over", "linearize", "values of a parameter, a coordinate or a velocity: \"x'=0:10:101\"")                       \
     X("project", "linearize", "move positions and velocities onto the constraints")                                    \
     X("of", "verify", "the field is a symmetry of this: constraint, or equations (of motion)")                         \
-    X("of", "classify", "the question: currents, measure, hamiltonization, symmetries or constraints")                 \
+    X("of", "classify", "the question: currents, measure, hamiltonization, symmetries, constraints or absence")        \
     X("of", "scan", "which numbers: count (of integrals), analyze or reduce")                                          \
     X("of", "export", "the parts: equations, momenta, submanifold, currents, reduced")                                 \
     X("of", "show", "only these names, one per line: parameters, coordinates, velocities")                             \

@@ -250,6 +250,7 @@ static bool *flag_of(nh_cli *cli, int code)
     case opt_shape: return &cli->ask.shape;
     case opt_scene: return &cli->ask.scene;
     case opt_equations: return &cli->ask.equations;
+    case opt_absence: return &cli->ask.absence;
     default: return NULL;
     }
 }

@@ -53,6 +53,7 @@ enum {
     opt_over,
     opt_shape,
     opt_equations,
+    opt_absence,
     opt_of,
     opt_number,
     opt_workers,

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "document/absence_words.h"
 #include "document/current_words.h"
 #include "document/facts.h"
 #include "document/formula.h"
@@ -346,9 +347,13 @@ void nh_analysis_answer_completeness(const nh_analysis *r, nh_text *out)
 
 static void completeness(const screen *x)
 {
+    enum { absence_lines = 4 };
     nh_text words;
     nh_text_init(&words);
     nh_analysis_answer_completeness(x->r, &words);
+    say(x, 0, &words);
+    const char *absence = nh_absence_words_short(x->r, absence_lines);
+    nh_text_add(&words, absence ? absence : "");
     say(x, 0, &words);
 }
 

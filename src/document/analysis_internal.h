@@ -15,6 +15,11 @@ void nh_analysis_write_series(nh_pen *pen, const nh_analysis *result, const nh_c
 void nh_analysis_write_motion(nh_pen *pen, const nh_analysis *result);
 void nh_analysis_write_figures(nh_pen *pen, const nh_analysis *result);
 void nh_analysis_write_search(nh_pen *pen, const nh_analysis *result);
+/* Is there a section on other integrals?  Where it was asked, and the answer says something. */
+bool nh_analysis_has_absence(const nh_analysis *result);
+void nh_analysis_write_absence(nh_pen *pen, const nh_analysis *result);
+/* Its statement as a paragraph; nothing where nothing is excluded. */
+void nh_analysis_write_absence_statement(nh_pen *pen, const nh_analysis *result);
 
 /* ---- parts of the JSON ---- */
 
@@ -22,6 +27,7 @@ void nh_analysis_write_search(nh_pen *pen, const nh_analysis *result);
 void nh_analysis_json_validation(const nh_analysis *result, nh_json *to);
 void nh_analysis_json_stated(const nh_analysis *result, nh_json *to);  /* what the system file says of currents */
 void nh_analysis_json_figures(const nh_analysis *result, nh_json *to); /* those of the analysis file */
+void nh_analysis_json_absence(const nh_analysis *result, nh_json *to); /* is there any other integral? */
 /* How many numbers along the motion are not finite. */
 size_t nh_analysis_json_holes(const nh_analysis *result);
 void nh_analysis_json_samples(const nh_analysis *result, nh_json *to);      /* the sample points */

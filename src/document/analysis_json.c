@@ -259,6 +259,7 @@ static void put_search(const writer *w, nh_json *to)
     nh_analysis_json_samples(result, to);
     put_unknowns(w, to);
     nh_analysis_json_completeness(result, to);
+    nh_analysis_json_absence(result, to);
     nh_analysis_json_stages(result, to);
 }
 

@@ -35,6 +35,7 @@ static void answer_of_a_page(nh_pen *p, const nh_analysis *result)
     nh_analysis_answer_completeness(result, &words);
     if (words.length) nh_pen_words(p, "%s", nh_text_string(&words));
     nh_text_clear(&words);
+    nh_analysis_write_absence_statement(p, result);
 }
 
 static void answer_of_details(nh_pen *p, const nh_analysis *result)
@@ -83,10 +84,11 @@ static void links(nh_pen *p, const nh_analysis *result)
 {
     nh_text sections;
     nh_text_init(&sections);
-    nh_text_addf(&sections, "system|System|%scurrents|Currents|%s%s%ssearch|%s|words|Words|repeat|Repeat it",
-                 result->theory ? "geometry|Geometry|" : "", result->motion ? "explicit|Explicit motion|" : "",
-                 result->validation ? "motion|Validation|" : "", result->figures ? "figures|Figures|" : "",
-                 result->list->count ? "How it was found" : "The search");
+    nh_text_addf(&sections, "system|System|%scurrents|Currents|%s%s%s%ssearch|%s|words|Words|repeat|Repeat it",
+                 result->theory ? "geometry|Geometry|" : "",
+                 nh_analysis_has_absence(result) ? "absence|Other integrals|" : "",
+                 result->motion ? "explicit|Explicit motion|" : "", result->validation ? "motion|Validation|" : "",
+                 result->figures ? "figures|Figures|" : "", result->list->count ? "How it was found" : "The search");
     p->ink->links(p->to, nh_text_string(&sections));
     nh_text_clear(&sections);
 }
@@ -105,6 +107,7 @@ static void as_a_paper(nh_pen *p, const nh_analysis *result)
     nh_pen_system(p, result->question->model, result);
     nh_pen_geometry(p, result->arena, result->theory);
     nh_analysis_write_currents(p, result);
+    nh_analysis_write_absence(p, result);
     explicit_motion(p, result);
     nh_analysis_write_motion(p, result);
     nh_analysis_write_figures(p, result);
@@ -114,6 +117,7 @@ static void as_a_paper(nh_pen *p, const nh_analysis *result)
 static void on_a_terminal(nh_pen *p, const nh_analysis *result)
 {
     nh_analysis_write_currents(p, result);
+    nh_analysis_write_absence(p, result);
     nh_analysis_write_motion(p, result);
     nh_pen_system(p, result->question->model, result);
     explicit_motion(p, result);
@@ -154,9 +158,14 @@ void nh_analysis_write(const nh_analysis *result, nh_pen_style style, nh_text *o
     if (p->ink->brief) on_a_terminal(p, result);
     else as_a_paper(p, result);
     nh_analysis_write_search(p, result);
-    nh_pen_glossary(
-        p, "current, symmetry, case, distribution, projectable, independent, local, residual, drift, gap, multiplier, "
-           "nonholonomic, growth");
+    static const char words[] = "current, symmetry, case, distribution, projectable, independent, local, residual, "
+                                "drift, gap, multiplier, nonholonomic, growth";
+    nh_pen_glossary(p, !nh_analysis_has_absence(result)
+                           ? words
+                           : nh_arena_printf(result->arena,
+                                             "%s, no other integral, meromorphic, invariant plane, "
+                                             "normal variational equation, Galois group",
+                                             words));
     nh_pen_end(p, &run);
     nh_stage_free(stage);
 }

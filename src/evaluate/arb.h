@@ -6,6 +6,7 @@
 
 #if __has_include(<flint/arb.h>)
 #include <flint/arb.h>
+#include <flint/arb_fmpz_poly.h>
 #include <flint/arb_mat.h>
 #include <flint/arb_poly.h>
 #include <flint/acb.h>
@@ -13,8 +14,10 @@
 #include <flint/acb_elliptic.h>
 #include <flint/acb_hypgeom.h>
 #include <flint/acb_poly.h>
+#include <flint/arb_fmpz_poly.h>
 #else
 #include <arb.h>
+#include <arb_fmpz_poly.h>
 #include <arb_mat.h>
 #include <arb_poly.h>
 #include <acb.h>
@@ -22,6 +25,7 @@
 #include <acb_elliptic.h>
 #include <acb_hypgeom.h>
 #include <acb_poly.h>
+#include <arb_fmpz_poly.h>
 #endif
 
 #endif

@@ -1,18 +1,17 @@
-/* answer: the table of answers, and the rows of all commands but simulate, reduce and export. */
+/* answer: the table of answers, and the rows of all commands but simulate, reduce, export and classify. */
 #include "library/answer.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "absence/absence.h"
 #include "base/foreign_memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "commands/classify.h"
 #include "commands/robustness.h"
 #include "commands/verify.h"
 #include "document/analysis.h"
 #include "document/benchmark.h"
-#include "document/classification.h"
 #include "document/html.h"
 #include "document/linearized.h"
 #include "document/scan.h"
@@ -102,7 +101,10 @@ bool nh_answer_is_figure(const char *text, size_t number) { return nh_html_is_fi
 
 static bool analysis_create(nh_answer *a, nh_error *error)
 {
-    return (a->part[0] = nh_analysis_create(a->request, error)) != NULL;
+    nh_analysis *result = nh_analysis_create(a->request, error);
+    a->part[0] = result;
+    if (result && !a->request->model_only && !nh_interrupted()) nh_absence_find(result, a->request->absence);
+    return result != NULL;
 }
 
 static void analysis_free(nh_answer *a) { nh_analysis_free(a->part[0]); }
@@ -123,6 +125,8 @@ static int analysis_code(const nh_answer *a, nh_error *error)
                 v ? v->accuracy.why : "no motion was computed, so the requested accuracy was not reached");
     if (result->counted_space.compared && !result->counted_space.agrees)
         nh_fail(error, NH_NUMERIC, "", "the sampled problem and the count disagree: one of them is wrong");
+    if (result->absence && result->absence->contradiction)
+        nh_fail(error, NH_NUMERIC, "", "%s: one of them is wrong", result->absence->contradiction);
     return nh_answer_code(result->partial, error);
 }
 
@@ -216,95 +220,6 @@ const nh_answer_kind nh_answer_show = {.name = "show",
                                        .write = shown_write,
                                        .json = shown_json,
                                        .code = shown_code};
-
-/* ---- classify ---- */
-
-/* "eps", "B, eps" or "A, B, eps" */
-static bool read_names(const nh_request *q, nh_classify_request *out, nh_error *error)
-{
-    size_t count = 0;
-    for (const char *at = q->over; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
-        at += strspn(at, " ");
-        size_t length = strcspn(at, ", ");
-        if (length == 0) return nh_fail(error, NH_USAGE, "", "--over `%s` lacks the name of a parameter", q->over);
-        if (count == NH_MOST_PARAMETERS) {
-            nh_fail(error, NH_USAGE, "", "--over `%s` names more than three parameters", q->over);
-            return nh_error_hint(error, "give the others values with --set");
-        }
-        out->over[count++] = nh_arena_strndup(q->arena, at, length);
-    }
-    return true;
-}
-
-/* --of measure */
-static bool read_question(const nh_request *q, nh_classify_request *out, nh_error *error)
-{
-    static const char *const names[] = {
-#define X(name, word) #word,
-        NH_LINEAR_QUESTION_TABLE(X)
-#undef X
-    };
-    size_t of = 0;
-    while (q->of && of < NH_LINEAR_QUESTIONS && strcmp(q->of, names[of])) of++;
-    out->of = (nh_linear_question)of;
-    if (of < NH_LINEAR_QUESTIONS && (of == NH_OF_CURRENTS || !out->over[1])) return true;
-    if (of < NH_LINEAR_QUESTIONS) {
-        nh_fail(error, NH_USAGE, "", "--of %s takes one parameter, not %s", q->of, out->over[2] ? "three" : "two");
-        return nh_error_hint(error, "give the other%s with --set", out->over[2] ? "s values" : " a value");
-    }
-    nh_fail(error, NH_USAGE, "", "--of does not know `%s`", q->of);
-    return nh_error_hint_near(error, q->of, names, NH_LINEAR_QUESTIONS,
-                              "currents, measure, hamiltonization, symmetries or constraints");
-}
-
-static bool read_classify(const nh_request *q, nh_classify_request *out, nh_error *error)
-{
-    *out = (nh_classify_request){.command = q->line,
-                                 .system_path = q->system_path,
-                                 .settings = q->settings,
-                                 .setting = q->setting,
-                                 .shape = q->shape,
-                                 .options = q->options};
-    return read_names(q, out, error) && read_question(q, out, error);
-}
-
-static bool classify_check(const nh_request *q, nh_error *error)
-{
-    nh_classify_request ignored;
-    return read_classify(q, &ignored, error);
-}
-
-static bool classified_create(nh_answer *a, nh_error *error)
-{
-    nh_classify_request request;
-    if (!read_classify(a->request, &request, error)) return false;
-    a->part[0] = nh_classify_system(&request, error);
-    return a->part[0];
-}
-
-static void classified_free(nh_answer *a) { nh_classified_free(a->part[0]); }
-
-static void classified_write(const nh_answer *a, nh_pen_style style, nh_text *out)
-{
-    nh_classification_write(a->part[0], &a->run, style, out);
-}
-
-static char *classified_json(const nh_answer *a) { return nh_classification_json(a->part[0], &a->run); }
-
-static int classified_code(const nh_answer *a, nh_error *error)
-{
-    const nh_classified *x = a->part[0];
-    if (x->classification->obstacle) nh_fail(error, NH_NUMERIC, "", "%s", x->classification->obstacle);
-    return nh_answer_code(x->partial, error);
-}
-
-const nh_answer_kind nh_answer_classify = {.name = "classify",
-                                           .check = classify_check,
-                                           .create = classified_create,
-                                           .free = classified_free,
-                                           .write = classified_write,
-                                           .json = classified_json,
-                                           .code = classified_code};
 
 /* ---- benchmark ---- */
 

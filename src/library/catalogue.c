@@ -268,6 +268,7 @@ static void values_of(const char *command, const char *between, nh_text *out)
 #define X(name, word) nh_text_addf(out, "%s" #word, first), first = between;
     if (!strcmp(command, "classify")) {
         NH_LINEAR_QUESTION_TABLE(X)
+        nh_text_addf(out, "%sabsence", between);
     }
 #undef X
     if (strcmp(command, "export")) return;

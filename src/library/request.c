@@ -32,7 +32,9 @@ bool nh_request_option(nh_request *q, const char *name, const char *text, nh_err
     char digits[40];
     if (!nh_text_to_number(text, &value) && nh_constant_text(text, &value))
         snprintf(digits, sizeof digits, "%.17g", value), text = digits;
-    return nh_options_set(&q->options, name, text, error);
+    bool good = nh_options_set(&q->options, name, text, error);
+    q->absence |= q->options.absence > 0;
+    return good;
 }
 
 bool nh_request_velocities(nh_request *q, const char *word, nh_error *error)

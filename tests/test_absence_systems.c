@@ -1,0 +1,79 @@
+/* Is there any other integral?  Systems of the literature, from both sides: where one is known to exist none is excluded. */
+#include <criterion/criterion.h>
+
+#include "absence.h"
+#include "published.h"
+#include "sweep.h"
+
+static nh_analysis *asked(const absence_system *s)
+{
+    nh_error error = {0};
+    nh_analysis *r = absence_of_text(s->text, &error);
+    cr_assert(r && r->absence, "%s: %s", s->name, error.what);
+    return r;
+}
+
+/* Nothing that exists is excluded, and no engine contradicts another one. */
+static void sound(const char *name, const nh_analysis *r, size_t exist)
+{
+    const nh_absence *a = r->absence;
+    cr_expect_null(a->contradiction, "%s: %s", name, a->contradiction);
+    cr_expect_geq(absence_bound(a), exist, "%s: at most %zu (%s), and %zu exist", name, absence_bound(a), absence_word(a), exist);
+}
+
+static void judge(const absence_system *s, const nh_analysis *r)
+{
+    const nh_absence *a = r->absence;
+    unsigned by = absence_by(a);
+    bool excluded = absence_bound(a) == s->exist;
+    sound(s->name, r, s->exist);
+    cr_expect_eq(by & s->by, s->by, "%s: engines %u, expected %u; %s", s->name, by, s->by, a->obstacle ? a->obstacle : "");
+    if (s->expected == EXCLUDED) {
+        cr_expect(excluded, "%s: %s, %s", s->name, absence_word(a), a->obstacle ? a->obstacle : "");
+        cr_expect(!a->rational, "%s: meromorphic, not only rational", s->name);
+    }
+    if (s->expected == IRREGULAR) cr_expect(!excluded || a->rational, "%s: at most rational", s->name);
+    /* an integrable system may be settled: then as many are found as are known */
+    if (s->expected == OPEN_ROW) cr_expect(!excluded || s->exist > 1, "%s: %s", s->name, absence_word(a));
+    if (s->expected != EXCLUDED && !excluded) cr_expect(a->obstacle || a->verdict == NH_ABSENCE_SETTLED, "%s: no reason", s->name);
+}
+
+Test(absence_systems, rows_of_the_literature)
+{
+    for (size_t i = 0; i < ABSENCE_COUNT; i++) {
+        if (!sweep_tries(i, 12, 40)) continue;
+        nh_analysis *r = asked(&ABSENCE[i]);
+        judge(&ABSENCE[i], r);
+        nh_analysis_free(r);
+    }
+}
+
+/* What the search finds in systems whose integrals are known, and in the catalogue: a refutation beside it would be false. */
+Test(absence_systems, published_integrals_are_not_excluded, PLAIN_ONLY)
+{
+    for (size_t i = 0; i < PUBLISHED_COUNT; i++) {
+        if (!sweep_tries(i, 60, 120)) continue;
+        nh_error error = {0};
+        nh_analysis *r = absence_of_text(PUBLISHED[i].text, &error);
+        cr_assert(r && r->absence, "%s: %s", PUBLISHED[i].name, error.what);
+        sound(PUBLISHED[i].name, r, absence_count(r));
+        nh_analysis_free(r);
+    }
+}
+
+Test(absence_systems, integrals_of_the_catalogue_are_not_excluded)
+{
+    char *name[most_files];
+    size_t n = list("systems", name);
+    cr_assert_gt(n, 50);
+    for (size_t i = 0; i < n; i++) {
+        char path[SCRATCH];
+        nh_error error = {0};
+        snprintf(path, sizeof path, "systems/%s.yaml", name[i]);
+        nh_analysis *r = sweep_tries(i + 3, 20, 60) ? absence_of_file(path, &error) : NULL;
+        if (r) sound(name[i], r, absence_count(r));
+        cr_expect_eq(error.code, NH_OK, "%s: %s", name[i], error.what);
+        nh_analysis_free(r);
+        free(name[i]);
+    }
+}
