@@ -37,7 +37,8 @@ typedef struct {
 bool nh_darboux_allowed(long k, const fmpq_t lambda);
 
 /* All coordinates of the system count, also those that the shape leaves out.  The lines: with two coordinates and a
- * polynomial all, complex ones too; else those whose coordinates are 0, 1 and -1.  In the arena. */
+ * polynomial all, complex ones too; else those whose coordinates are 0, 1 and -1, and the equilateral triangle of three
+ * bodies.  In the arena. */
 nh_darboux *nh_darboux_of(nh_arena *arena, const nh_closed_shape *shape);
 
 #endif
