@@ -268,7 +268,7 @@ Test(darboux, three_bodies)
         cr_assert(out->applies && out->refuted, "%s", out->obstacle);
         cr_expect(out->degree == -1 && out->roots && out->generic && out->coordinates == 6 && !out->undecided);
         cr_expect_eq(out->points, list[k].points, "%zu lines", out->points);
-        cr_expect_str_eq(out->refutation.point, "c = an equilateral triangle about the centre of mass");
+        cr_expect_str_eq(out->refutation.point, "c, an equilateral triangle about the centre of mass");
         cr_expect_str_eq(out->refutation.eigenvalue, list[k].eigenvalue);
         nh_arena_free(arena);
         mechanics_clear(&x);
