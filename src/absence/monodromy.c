@@ -12,7 +12,7 @@ enum {
     spare_bits = 32 /* of the singular points */
 };
 
-static const uint64_t most_work = (uint64_t)1 << 29; /* about 20 seconds */
+static const uint64_t most_work = (uint64_t)1 << 28; /* about 10 seconds */
 
 /* ---- equations and their singular points ---- */
 
