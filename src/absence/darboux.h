@@ -15,7 +15,8 @@
 #include "absence/closed_shape.h"
 
 typedef struct {
-    const char *point;      /* "c = (1, 0)" or "c = (1, s), s^2 - 2 = 0": V'(c) = M c, up to a factor */
+    const char *point; /* "c = (1, 0)", "c = (1, s), s^2 - 2 = 0", "c, an equilateral triangle ..": V'(c) = M c, up to
+                               a factor */
     const char *eigenvalue; /* "5/7", "3*sqrt(2) - 5", "lambda, lambda^3 + lambda + 1 = 0", "2*s + 1" in the s of the
                                point; of V''(c), exact; the first that is not in the table */
 } nh_darboux_refutation;

@@ -43,5 +43,5 @@ void nh_darboux_triangle(nh_darboux_work *w)
     for (size_t i = 0; i < w->n * w->n; i++)
         inertia[i] = nh_rational_value_number(w->dag, fmpq_mat_entry(w->inertia, (slong)(i / w->n), (slong)(i % w->n)));
     if (nh_darboux_triangle_place(w->dag, w->n, inertia, c))
-        nh_darboux_try(w, c, "c = an equilateral triangle about the centre of mass");
+        nh_darboux_try(w, c, "c, an equilateral triangle about the centre of mass");
 }
