@@ -437,6 +437,48 @@ Test(monodromy, floating)
     same_loops(&e);
 }
 
+/* Balls of few bits contain what balls of many bits say: remainders and roundings are bounded. */
+static void nested(nh_linear_equation *e)
+{
+    nh_monodromy_sum fine, coarse;
+    cr_assert(nh_monodromy_sum_init(&fine, 1, e, 512));
+    acb_t exact, trace;
+    acb_init(exact);
+    acb_init(trace);
+    for (size_t i = 0; i < fine.points; i++) {
+        nh_monodromy_element loop = nh_monodromy_element_new(&fine);
+        cr_assert(nh_monodromy_loop(&fine, i, loop));
+        acb_mat_trace(exact, loop, 512);
+        cr_expect(mag_cmp_2exp_si(arb_radref(acb_realref(exact)), -300) < 0);
+        nh_monodromy_element_free(&fine, loop);
+        for (long bits = 40; bits < 200; bits += 53) {
+            cr_assert(nh_monodromy_sum_init(&coarse, 1, e, bits));
+            loop = nh_monodromy_element_new(&coarse);
+            if (nh_monodromy_loop(&coarse, i, loop)) {
+                acb_mat_trace(trace, loop, bits);
+                cr_expect(acb_overlaps(trace, exact), "point %zu, %ld bits", i, bits);
+                cr_expect(bits < 100 || mag_cmp_2exp_si(arb_radref(acb_realref(trace)), -20) < 0);
+            }
+            nh_monodromy_element_free(&coarse, loop);
+            nh_monodromy_sum_clear(&coarse);
+        }
+    }
+    acb_clear(exact);
+    acb_clear(trace);
+    nh_monodromy_sum_clear(&fine);
+    nh_linear_equation_clear(e);
+}
+
+Test(monodromy, nested)
+{
+    nh_linear_equation e = henon_heiles(classical);
+    nested(&e);
+    e = second_order(of("3  1 5 2", "5  2 1 0 -3 4"), of("3  7 -1 2", "6  1 3 1 -1 0 2"));
+    nested(&e);
+    e = second_order(of("1  1", "2  0 1"), of("3  1 2 1", "5  0 0 0 0 1"));
+    nested(&e);
+}
+
 /* ---- ranks ---- */
 
 Test(monodromy, henon_heiles)
