@@ -197,7 +197,7 @@ Test(absence_words, at_most)
     x.attempt[0].monodromy = &x.monodromy;
     x.attempt[0].orbit = 4, x.equation[0].dimension = 5, x.equation[0].blocks = 2;
     says(&x, "At most 3 independent first integrals of the equations of x, y, x', y' are meromorphic near the complex motions x = 0 of energy 1/7 (theorem; the monodromy of their normal variational equation moves a general vector in 4 of 5 dimensions, taken on its 2 blocks together; proved in balls of 512 bits); 1 is known. "
-             "Also excluded: finitely many-valued ones. "
+             "So too where finitely many-valued ones are counted. "
              "Not excluded: integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, and integrals that contain t.");
     says_briefly(&x, "At most 3 independent first integrals of the equations of x, y, x', y' are meromorphic near the complex motions x = 0 of energy 1/7 (theorem; monodromy, in balls); 1 is known. Not excluded: ones with other singularities there, smooth ones, ones that contain t.");
     end(&x);
@@ -211,6 +211,29 @@ Test(absence_words, liouville)
     x.equation[0].dimension = 4;
     says(&x, "Not integrable in the sense of Liouville: the equations of x, y, x', y' do not have as many independent first integrals in involution as degrees of freedom, all of them meromorphic near the complex motions x = 0 of energy 1/7 (theorem; a block of their normal variational equation has the Galois group SL(2); proved modulo 1073742391; so too for all values of the parameters outside countably many hypersurfaces). "
              "Not excluded: a further integral alone, integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, and integrals that contain t.");
+    end(&x);
+}
+
+/* A block with SL(2) beside others: the group may have a torus, which sees periodic integrals only.  Against commuting integrals the block is enough. */
+Test(absence_words, one_block)
+{
+    answer x;
+    make(&x, TURNING, 1);
+    x.a.verdict = NH_ABSENCE_AT_MOST;
+    x.a.at_most = 2, x.a.known = 1;
+    x.equation[0].dimension = 3, x.equation[0].blocks = 2;
+    cr_expect_eq(nh_absence_parts_reason_of(&x.a), NH_ABSENCE_BY_BLOCK);
+    cr_expect(strstr(nh_absence_words_sentence(x.r), " and 2 pi-periodic in theta (theorem; a block of their normal variational equation has the Galois group SL(2)"), "%s", nh_absence_words_sentence(x.r));
+    x.a.verdict = NH_ABSENCE_LIOUVILLE;
+    cr_expect_null(strstr(nh_absence_words_sentence(x.r), "periodic"));
+    x.kovacic.group = NH_GROUP_TRIANGULAR;
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "2 pi-periodic in theta (theorem; the Galois group of their normal variational equation is SL(2) or triangular, of dimension 2"), "%s", nh_absence_words_sentence(x.r));
+    /* balls on the direct sum */
+    x.kovacic.group = NH_GROUP_SL2;
+    x.a.verdict = NH_ABSENCE_NONE_ELSE;
+    x.attempt[0].monodromy = &x.monodromy, x.attempt[0].orbit = x.equation[0].dimension = 4;
+    cr_expect_eq(nh_absence_parts_reason_of(&x.a), NH_ABSENCE_BY_MONODROMY);
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "2 pi-periodic in theta"), "%s", nh_absence_words_sentence(x.r));
     end(&x);
 }
 
@@ -268,9 +291,14 @@ Test(absence_words, states_of_rest)
     x.a.resonance = x.rests;
     x.rest.divergence = true;
     says(&x, "Not decided whether there is any other integral. Nothing is excluded by this, and nothing is found. "
-             "Near the state of rest x = 0, x' = 0 at most 1 independent first integral of the equations of s, theta, s', theta', z' is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101). No measure with a positive density of class C^1 is preserved near the state of rest x = 0, x' = 0.");
-    says_briefly(&x, "Near the state of rest x = 0, x' = 0 at most 1 independent first integral of the equations of s, theta, s', theta', z' is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101).");
-    x.rest.divergence = false;
+             "Near x = 0, x' = 0, where the equations of s, theta, s', theta', z' rest, at most 1 independent first integral of theirs is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101). No measure with a positive density of class C^1 is preserved near x = 0, x' = 0.");
+    says_briefly(&x, "Near x = 0, x' = 0, where the equations of s, theta, s', theta', z' rest, at most 1 independent first integral of theirs is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101).");
+    /* no prime was needed */
+    x.rest = (nh_resonance){.point = "x = 0, x' = 0", .polynomial = "x^5", .letters = 5, .span = 1, .diagonalizable = false, .at_most = 3};
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "at most 3 independent first integrals of theirs are real-analytic, or quotients of real-analytic functions (theorem; the eigenvalues there span at least 1 dimension over the rational numbers, and the linear equations cannot be diagonalized)."),
+              "%s", nh_absence_words_sentence(x.r));
+    x.rest.at_most = 0;
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "rest, of their first integrals only constants are real-analytic, or quotients"), "%s", nh_absence_words_sentence(x.r));
     x.rest.at_most = 4; /* as everywhere */
     says(&x, "Not decided whether there is any other integral. Nothing is excluded by this, and nothing is found.");
     says_briefly(&x, NULL);
@@ -349,6 +377,43 @@ Test(absence_words, json)
     end(&x);
 }
 
+/* Every member stands in the schema, and every one that is required is there. */
+static void fits(const cJSON *schema, const cJSON *v, const char *name)
+{
+    for (const cJSON *m = cJSON_IsObject(v) ? v->child : NULL; m; m = m->next) {
+        const cJSON *own = cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItem(schema, "properties"), m->string);
+        cr_assert_not_null(own, "%s.%s is not in the schema", name, m->string);
+        fits(own, m, m->string);
+    }
+    const cJSON *required = cJSON_IsObject(v) ? cJSON_GetObjectItem(schema, "required") : NULL;
+    for (const cJSON *key = required ? required->child : NULL; key; key = key->next) at(v, key->valuestring);
+    for (const cJSON *e = cJSON_IsArray(v) ? v->child : NULL; e; e = e->next) fits(cJSON_GetObjectItem(schema, "items"), e, name);
+}
+
+Test(absence_words, schema)
+{
+    answer x;
+    make(&x, PLANE, 0);
+    x.a.resonances = 1, x.a.resonance = x.rests, x.a.darboux = &x.darboux;
+    x.attempt[0].monodromy = &x.monodromy;
+    x.attempt[1].residues = &x.residues;
+    FILE *file = fopen("docs/schema/analyze.json", "r");
+    cr_assert_not_null(file);
+    nh_text text;
+    nh_text_init(&text);
+    char part[4096];
+    for (size_t n; (n = fread(part, 1, sizeof part, file)) > 0;) nh_text_add_n(&text, part, n);
+    fclose(file);
+    char *json = nh_analysis_json(x.r);
+    cJSON *schema = cJSON_Parse(nh_text_string(&text)), *root = cJSON_Parse(json);
+    const cJSON *whole = cJSON_GetArrayItem(at(schema, "oneOf"), 0);
+    fits(at(at(whole, "properties"), "absence"), at(root, "absence"), "absence");
+    cJSON_Delete(schema), cJSON_Delete(root);
+    nh_text_clear(&text);
+    nh_free(json);
+    end(&x);
+}
+
 /* No class where nothing is excluded: a reader of the JSON must not take the bound of nothing for one. */
 Test(absence_words, json_of_nothing)
 {
@@ -396,11 +461,12 @@ Test(absence_words, documents)
     char *plain = document(&x, NH_PEN_TEXT), *page = document(&x, NH_PEN_PAGE), *tex = document(&x, NH_PEN_LATEX);
     has(plain, "Other integrals\n");
     has(plain, "No other integral: every first integral of the equations of x, y, x', y'");
-    has(plain, "Normal form: u'' = r*u, r = (3*x^2-x+7)/(x^4 - 2)");
+    has(plain, "Normal form: u'' = r*u, r = (3*x^2 - x + 7)/(x^4 - 2)");
     has(plain, "Only what costs little was tried");
     has(page, "<section id=\"absence\">");
     has(page, "href=\"#absence\"");
     has(page, "Why the group is SL(2)");
+    has(page, "Motions that were tried, and the normal variational equations along them");
     has(tex, "Other integrals");
     has(tex, "\\sqrt{x^{2} + y^{2}}");
     free(plain), free(page), free(tex);
@@ -410,7 +476,7 @@ Test(absence_words, documents)
     x.a.everything = true;
     plain = document(&x, NH_PEN_TEXT);
     has(plain, "at least 4 of 4 dimensions");
-    has(plain, "4 in 2 blocks");
+    has(plain, "x = 0, level 1/7: y'^2 = 2/7 - y^2 + 2/3*y^3; normal equation of size 4 in 2 blocks; group: moves in 4 of 4 dimensions");
     has(plain, "-1.25");
     cr_expect_null(strstr(plain, "Only what costs little"));
     free(plain);

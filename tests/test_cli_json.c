@@ -94,7 +94,7 @@ static const key SCHEMA[] = {
     {"constraint.growth_proved", "b"}, {"constraint.growth_space", "s"}, {"constraint.hidden_holonomic.count", "n"}, {"constraint.hidden_holonomic.without_closed_form", "n"},
     {"reduced_equations", "a"}, {"reduced_equations.0.velocity", "s"}, {"reduced_equations.0.rate", "s"}, {"multipliers", "a"},
     {"nullspace.columns", "n"}, {"nullspace.rows", "n"}, {"nullspace.spectrum", "a"}, {"nullspace.gap", "n0"}, {"nullspace.dimension", "n"},
-    {"explicit_motion", "o0"}, {"counted_space", "o0"}, {"unknowns", "o"}, {"currents", "a"}, {"almost_conserved", "a"}, {"independent_currents", "n"}, {"local_maximum", "n"},
+    {"explicit_motion", "o0"}, {"counted_space", "o0"}, {"unknowns", "o"}, {"currents", "a"}, {"absence", "o0"}, {"almost_conserved", "a"}, {"independent_currents", "n"}, {"local_maximum", "n"},
     {"validation", "o0"}, {"timing.total_s", "n"}, {"warnings", "a"},
     {"stages", "a"}, {"partial", "b"}, {"run.command", "s"}, {"run.system_file", "s"}, {"run.machine", "s"}, {"run.libraries.FLINT", "s"},
 };
@@ -120,7 +120,7 @@ static size_t null_numbers(const cJSON *item)
     static const char *const texts[] = {"relation", "recognised", "in_velocities", "validation", "routes", "multiplier_form", "symmetry", "components_with_gamma", "symmetry_route",
                                         "chart_crossing", "nullspace", "gap", "series", "latex", "command", "analysis_file", "accuracy",
                                         "semiholonomic", "branch", "on_both_branches",
-                                        "completeness", "in_time", "obstacle", "of", "proved", "missing_at", "equations",
+                                        "completeness", "in_time", "absence", "class", "at_most", "decided_by", "curve", "variable", "p", "q", "regular", "certificate", "monodromy", "residues", "darboux", "point", "eigenvalue", "factor", "residue", "contradiction", "obstacle", "of", "proved", "missing_at", "equations",
                                         "explicit_motion", "intervals", "fixed", "region", "where", "counted_space", "known",
                                         "tried", "state", "rate", "digits"};
     size_t n = 0;

@@ -2,6 +2,7 @@
  *
  * Kovacic's algorithm and residues take milliseconds.  The monodromy in balls takes a second, and is for --absence. */
 #include "absence/absence_internal.h"
+#include "absence/polynomial_text.h"
 
 /* The first bound of the dimension, and where it comes from, is kept unless a later one is larger, or as large and of
  * the larger class of functions. */
@@ -13,12 +14,31 @@ static void bound(nh_absence_attempt *attempt, size_t orbit, bool rational)
     }
 }
 
+/* "(x^2 - 1)/(2*x)": with whole coefficients that have no common factor. */
 static const char *quotient_text(nh_arena *arena, const fmpq_poly_t num, const fmpq_poly_t den)
 {
-    char *n = fmpq_poly_get_str_pretty(num, "x"), *d = fmpq_poly_get_str_pretty(den, "x");
-    const char *text = fmpq_poly_is_one(den) ? nh_arena_strdup(arena, n) : nh_arena_printf(arena, "(%s)/(%s)", n, d);
-    flint_free(n);
-    flint_free(d);
+    fmpz_poly_t n, d;
+    fmpz_t common, other;
+    fmpz_poly_init(n);
+    fmpz_poly_init(d);
+    fmpz_init(common);
+    fmpz_init(other);
+    fmpq_poly_get_numerator(n, num);
+    fmpq_poly_get_numerator(d, den);
+    fmpz_poly_scalar_mul_fmpz(n, n, fmpq_poly_denref(den));
+    fmpz_poly_scalar_mul_fmpz(d, d, fmpq_poly_denref(num));
+    fmpz_poly_content(common, n);
+    fmpz_poly_content(other, d);
+    fmpz_gcd(common, common, other);
+    if (fmpz_sgn(fmpz_poly_lead(d)) < 0) fmpz_neg(common, common);
+    fmpz_poly_scalar_divexact_fmpz(n, n, common);
+    fmpz_poly_scalar_divexact_fmpz(d, d, common);
+    const char *above = nh_polynomial_text_whole(arena, n, "x"), *below = nh_polynomial_text_whole(arena, d, "x");
+    const char *text = fmpz_poly_is_one(d) ? above : nh_arena_printf(arena, "(%s)/(%s)", above, below);
+    fmpz_poly_clear(n);
+    fmpz_poly_clear(d);
+    fmpz_clear(common);
+    fmpz_clear(other);
     return text;
 }
 

@@ -107,7 +107,8 @@ nh_known_integrals nh_absence_known(const nh_analysis *analysis, nh_absence *abs
     size_t energy = SIZE_MAX;
     for (size_t k = 0; k < n; k++) {
         if (!usable(analysis, absence, roots, root, k)) continue;
-        integral[count] = analysis->list->found[k].phi;
+        /* levels are told of the energy itself, and not of a multiple of it */
+        integral[count] = analysis->list->found[k].energy ? model->E : analysis->list->found[k].phi;
         /* those that a ball proves to be independent of the ones before */
         nh_rank rank = nh_rank_decide(model, count, integral, analysis->question->options.doubt);
         if (rank.answer != NH_RANK_GROWS || !rank.proved) continue;

@@ -31,6 +31,7 @@ static void begin(nh_normal_work *work)
                                    .coordinate = work->plane->y[0],
                                    .velocity = work->plane->y[1],
                                    .angle = work->plane->angle,
+                                   .side = work->plane->side,
                                    .zeros = work->normals,
                                    .zero = work->plane->y + 2};
     work->block = nh_curve_field_elements(work->normals * work->normals);
@@ -71,4 +72,17 @@ void nh_normal_equation_clear(nh_normal_equation *equation)
 {
     for (size_t b = 0; b < equation->blocks; b++) nh_linear_equation_clear(&equation->block[b]);
     equation->blocks = 0;
+}
+
+bool nh_normal_equation_equal(const nh_normal_equation *a, const nh_normal_equation *b)
+{
+    if (a->obstacle || b->obstacle || a->known != b->known || a->blocks != b->blocks) return false;
+    if (a->triangular != b->triangular || a->periodic != b->periodic || a->generic != b->generic) return false;
+    for (size_t k = 0; k < a->blocks; k++) {
+        const nh_linear_equation *p = &a->block[k], *q = &b->block[k];
+        if (p->size != q->size || !fmpz_poly_equal(p->den, q->den)) return false;
+        for (size_t i = 0; i < p->size * p->size; i++)
+            if (!fmpz_poly_equal(p->num + i, q->num + i)) return false;
+    }
+    return true;
 }

@@ -12,13 +12,14 @@ typedef struct {
     nh_ex level;          /* the rational value of the integral that determines the curve */
     const char *curve;    /* "x'^2 = 2/7 - x^2" at the level */
     const char *variable; /* "y", "tan(theta/2)" */
-    bool single_valued;   /* all letters are algebraic functions on the curve */
-    bool periodic;        /* a letter of the shape is an angle: integrals have period 2 pi in it */
+    bool single_valued;   /* all letters are algebraic functions on the curve, and the integrals used have one value */
+    bool periodic;        /* the moving coordinate is an angle: integrals have period 2 pi in it */
     bool generic;         /* plane, integrals used and their number hold for all values of the parameters */
     size_t known;         /* integrals used, independent along the curve (the energy included): r */
     size_t *used;         /* their indices among those given */
-    size_t unused;        /* given, and vanishing differential along the curve */
-    size_t dimension;     /* d = letters - 1 - known */
+    size_t unused;    /* given, with a differential along the curve that depends on those used, or has no value in its
+                           * field */
+    size_t dimension; /* d = letters - 1 - known */
     size_t blocks;
     nh_linear_equation *block; /* the graded pieces of a triangular form; the sizes add to d */
     bool triangular;           /* pieces of a triangular form, not a direct sum */
@@ -37,5 +38,7 @@ typedef struct {
 nh_normal_equation *nh_normal_equation_of(nh_arena *arena, const nh_closed_shape *shape, const nh_plane *plane,
                                           const nh_known_integrals *known, size_t n);
 void nh_normal_equation_clear(nh_normal_equation *equation);
+/* Have both the same blocks, with as many integrals?  Planes that a reflection of the system exchanges often do. */
+bool nh_normal_equation_equal(const nh_normal_equation *a, const nh_normal_equation *b);
 
 #endif

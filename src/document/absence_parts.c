@@ -10,11 +10,6 @@ const nh_absence_attempt *nh_absence_parts_best(const nh_absence *a)
     return a->best < a->attempts ? &a->attempt[a->best] : NULL;
 }
 
-bool nh_absence_parts_special_linear(const nh_absence_attempt *t)
-{
-    return t && t->kovacic && t->kovacic->group == NH_GROUP_SL2;
-}
-
 bool nh_absence_parts_angles(const nh_closed_shape *shape)
 {
     bool any = false;
@@ -22,22 +17,42 @@ bool nh_absence_parts_angles(const nh_closed_shape *shape)
     return any;
 }
 
-bool nh_absence_parts_by_darboux(const nh_absence *a)
+/* Of an equation of first order. */
+static nh_absence_parts_reason by_residue(const nh_residues *residues)
 {
-    return !nh_absence_parts_best(a) && a->darboux && a->darboux->refuted;
+    return !residues || residues->verdict == NH_RESIDUE_OPEN ? NH_ABSENCE_BY_NOTHING
+           : residues->verdict == NH_RESIDUE_MEROMORPHIC     ? NH_ABSENCE_BY_RESIDUE
+                                                             : NH_ABSENCE_BY_IRREGULAR;
 }
 
+nh_absence_parts_reason nh_absence_parts_reason_of(const nh_absence *a)
+{
+    const nh_absence_attempt *t = nh_absence_parts_best(a);
+    if (!t) return a->darboux && a->darboux->refuted ? NH_ABSENCE_BY_DARBOUX : NH_ABSENCE_BY_NOTHING;
+    bool special = t->kovacic && t->kovacic->group == NH_GROUP_SL2;
+    bool triangular = t->kovacic && t->kovacic->group == NH_GROUP_TRIANGULAR;
+    if (t->equation->dimension == 1 && by_residue(t->residues) != NH_ABSENCE_BY_NOTHING) return by_residue(t->residues);
+    if (special && t->equation->dimension == 2 && t->orbit == 2) return NH_ABSENCE_BY_GROUP;
+    if (a->verdict == NH_ABSENCE_LIOUVILLE && special) return NH_ABSENCE_BY_BLOCK;
+    if (triangular && (a->verdict == NH_ABSENCE_LIOUVILLE || (t->equation->dimension == 2 && t->orbit == 2)))
+        return NH_ABSENCE_BY_TRIANGULAR;
+    if (t->monodromy && t->monodromy->rank >= t->orbit) return NH_ABSENCE_BY_MONODROMY;
+    return special ? NH_ABSENCE_BY_BLOCK : NH_ABSENCE_BY_NOTHING;
+}
+
+/* SL(2) as the whole group, and one block of it against commuting integrals, are their own commutator groups. */
 bool nh_absence_parts_periodic(const nh_absence *a)
 {
-    if (a->rational) return false;
-    bool special = nh_absence_parts_by_darboux(a) || nh_absence_parts_special_linear(nh_absence_parts_best(a));
-    return a->periodic || (nh_absence_parts_angles(a->shape) && !special);
+    nh_absence_parts_reason by = nh_absence_parts_reason_of(a);
+    bool perfect = by == NH_ABSENCE_BY_GROUP || by == NH_ABSENCE_BY_DARBOUX ||
+                   (by == NH_ABSENCE_BY_BLOCK && a->verdict == NH_ABSENCE_LIOUVILLE);
+    return !a->rational && (a->periodic || (nh_absence_parts_angles(a->shape) && !perfect));
 }
 
 const char *nh_absence_parts_group(nh_arena *arena, const nh_absence_attempt *t)
 {
     const nh_kovacic *k = t->kovacic;
-    static const char *const groups[] = {"SL(2)", "not virtually abelian", "open", "undecided"};
+    static const char *const groups[] = {"SL(2)", "SL(2) or triangular", "open", "undecided"};
     if (k && (k->group == NH_GROUP_SL2 || k->group == NH_GROUP_TRIANGULAR)) return groups[k->group];
     if (t->residues && t->residues->verdict == NH_RESIDUE_MEROMORPHIC) return "a residue is not rational";
     if (t->residues && t->residues->verdict == NH_RESIDUE_RATIONAL) return "infinite, by an irregular point";

@@ -39,12 +39,6 @@ static void put_list(const writer *w, size_t n, const char *const *item, const c
     for (size_t i = 0; i < n; i++) nh_text_addf(w->out, "%s%s", !i ? "" : i + 1 < n ? ", " : last, item[i]);
 }
 
-/* The group of the whole normal equation, not of one of its blocks. */
-static bool whole_is_special_linear(const nh_absence_attempt *t)
-{
-    return nh_absence_parts_special_linear(t) && t->equation && t->equation->dimension == 2 && t->orbit == 2;
-}
-
 /* ---- the letters ---- */
 
 /* "x, y, x', y'"; of a rational class angles by their sines and cosines. */
@@ -121,7 +115,7 @@ static void put_motions(const writer *w)
         nh_text_addf(w->out, "the complex motions %s %s %s", formula(w, e->plane->words),
                      knows_energy(w) ? "of energy" : "at the level", level);
         nh_free(level);
-    } else if (nh_absence_parts_by_darboux(w->a))
+    } else if (nh_absence_parts_reason_of(w->a) == NH_ABSENCE_BY_DARBOUX)
         nh_text_addf(w->out, "the complex motions on the line along %s", w->a->darboux->refutation.point);
     else nh_text_add(w->out, "some complex motions");
 }
@@ -169,54 +163,80 @@ static void put_class(const writer *w)
 
 /* ---- why ---- */
 
+static const char their_equation[] = "their normal variational equation";
+
+/* Modulo a prime, where one was needed. */
+static void put_prime(const writer *w, ulong prime)
+{
+    if (prime) nh_text_addf(w->out, "; proved modulo %zu", (size_t)prime);
+}
+
+static void put_orbit(const writer *w, const char *group)
+{
+    const nh_absence_attempt *t = w->best;
+    nh_text_addf(w->out, "the %s of %s moves a general vector in %zu of %zu dimensions", group, their_equation,
+                 t->orbit, t->equation->dimension);
+    if (t->equation->blocks > 1) nh_text_addf(w->out, ", taken on its %zu blocks together", t->equation->blocks);
+}
+
 /* "the Galois group of their normal variational equation is SL(2); proved modulo 1073742391" */
 static void put_reason(const writer *w)
 {
     const nh_absence_attempt *t = w->best;
-    static const char equation[] = "their normal variational equation";
-    if (whole_is_special_linear(t)) {
-        nh_text_addf(w->out, "the Galois group of %s is SL(2); proved modulo %zu", equation, (size_t)t->kovacic->prime);
-    } else if (nh_absence_parts_special_linear(t) && w->a->verdict == NH_ABSENCE_LIOUVILLE) {
-        nh_text_addf(w->out, "a block of %s has the Galois group SL(2); proved modulo %zu", equation,
-                     (size_t)t->kovacic->prime);
-    } else if (t && t->kovacic && t->kovacic->group == NH_GROUP_TRIANGULAR && w->a->verdict == NH_ABSENCE_LIOUVILLE) {
-        nh_text_addf(w->out, "the Galois group of %s is not virtually abelian; proved modulo %zu", equation,
-                     (size_t)t->kovacic->prime);
-    } else if (t && t->residues && t->residues->verdict == NH_RESIDUE_MEROMORPHIC) {
+    const nh_darboux *d = w->a->darboux;
+    switch (nh_absence_parts_reason_of(w->a)) {
+    case NH_ABSENCE_BY_GROUP:
+        nh_text_addf(w->out, "the Galois group of %s is SL(2)", their_equation);
+        put_prime(w, t->kovacic->prime);
+        break;
+    case NH_ABSENCE_BY_BLOCK:
+        nh_text_addf(w->out, "a block of %s has the Galois group SL(2)", their_equation);
+        put_prime(w, t->kovacic->prime);
+        break;
+    case NH_ABSENCE_BY_TRIANGULAR:
+        nh_text_addf(w->out, "the Galois group of %s is SL(2) or triangular, of dimension 2", their_equation);
+        put_prime(w, t->kovacic->prime);
+        break;
+    case NH_ABSENCE_BY_RESIDUE:
         nh_text_addf(w->out,
                      "loops multiply the solutions of %s, which is of first order, by numbers that are no "
                      "roots of unity: a residue is not rational",
-                     equation);
-    } else if (t && t->residues && t->residues->verdict == NH_RESIDUE_RATIONAL) {
-        nh_text_addf(w->out, "the solutions of %s, which is of first order, are not algebraic", equation);
-    } else if (t) {
-        nh_text_addf(w->out, "the monodromy of %s moves a general vector in %zu of %zu dimensions", equation, t->orbit,
-                     t->equation->dimension);
-        if (t->equation->blocks > 1) nh_text_addf(w->out, ", taken on its %zu blocks together", t->equation->blocks);
-        if (t->monodromy) nh_text_addf(w->out, "; proved in balls of %ld bits", t->monodromy->bits);
-    } else if (nh_absence_parts_by_darboux(w->a)) {
-        const nh_darboux *d = w->a->darboux;
-        nh_text_addf(w->out,
-                     "of Morales-Ruiz and Ramis: the potential is homogeneous of degree %ld, and its second "
-                     "derivatives have the eigenvalue %s there, at which the motions near by have the Galois group "
-                     "SL(2)",
-                     d->degree, formula(w, d->refutation.eigenvalue));
+                     their_equation);
+        break;
+    case NH_ABSENCE_BY_IRREGULAR:
+        nh_text_addf(w->out, "the solutions of %s, which is of first order, are not algebraic", their_equation);
+        break;
+    case NH_ABSENCE_BY_MONODROMY:
+        put_orbit(w, "monodromy");
+        nh_text_addf(w->out, "; proved in balls of %ld bits", t->monodromy->bits);
+        break;
+    case NH_ABSENCE_BY_DARBOUX:
+        nh_text_addf(
+            w->out,
+            "of Morales-Ruiz and Ramis: the potential is homogeneous of degree %ld, and its second derivatives "
+            "have the eigenvalue %s there, at which the motions near by have the Galois group SL(2)",
+            d->degree, formula(w, d->refutation.eigenvalue));
+        break;
+    case NH_ABSENCE_BY_NOTHING:
+        if (t) put_orbit(w, "Galois group");
+        break;
     }
 }
 
 static void put_short_reason(const writer *w)
 {
-    if (nh_absence_parts_special_linear(w->best)) nh_text_add(w->out, "Galois group SL(2)");
-    else if (nh_absence_parts_by_darboux(w->a))
-        nh_text_addf(w->out, "eigenvalue %s of the potential", formula(w, w->a->darboux->refutation.eigenvalue));
-    else if (w->best && w->best->monodromy && !w->best->residues) nh_text_add(w->out, "monodromy, in balls");
-    else nh_text_add(w->out, "normal variational equation");
+    static const char *const words[] = {"Galois group SL(2)",    "a block with the Galois group SL(2)",
+                                        "Galois group",          "a residue is not rational",
+                                        "an irregular point",    "monodromy, in balls",
+                                        "homogeneous potential", "normal variational equation"};
+    nh_text_add(w->out, words[nh_absence_parts_reason_of(w->a)]);
 }
 
 static void put_evidence(const writer *w)
 {
     bool generic = w->a->generic && w->r->question->system->parameters;
-    nh_text_add(w->out, nh_absence_parts_by_darboux(w->a) && !w->brief ? " (theorem " : " (theorem; ");
+    nh_text_add(w->out,
+                nh_absence_parts_reason_of(w->a) == NH_ABSENCE_BY_DARBOUX && !w->brief ? " (theorem " : " (theorem; ");
     if (w->brief) put_short_reason(w);
     else put_reason(w);
     if (generic)
@@ -301,7 +321,10 @@ static void put_also_excluded(const writer *w)
     const nh_absence *a = w->a;
     bool turns = nh_absence_parts_angles(a->shape) && !nh_absence_parts_periodic(a);
     if (a->verdict == NH_ABSENCE_LIOUVILLE) return;
-    if (a->rational) nh_text_add(w->out, "Also excluded: algebraic ones.");
+    if (a->verdict == NH_ABSENCE_AT_MOST)
+        nh_text_addf(w->out, "So too where %s are counted.",
+                     a->rational ? "algebraic ones" : "finitely many-valued ones");
+    else if (a->rational) nh_text_add(w->out, "Also excluded: algebraic ones.");
     else
         nh_text_addf(w->out, "Also excluded: finitely many-valued ones%s.",
                      turns ? ", and ones that are not periodic in the angles" : "");
@@ -336,26 +359,28 @@ static void put_unused(const writer *w)
 
 /* ---- states of rest ---- */
 
+/* A state where the equations of the letters rest is a steady motion of the system where others are left out. */
 static void put_rest(const writer *w, const nh_resonance *e)
 {
-    if (e->at_most + 1 < e->letters) {
-        if (e->at_most)
-            nh_text_addf(w->out, "Near the state of rest %s at most %zu independent first integral%s of ",
-                         formula(w, e->point), e->at_most, plural(e->at_most));
-        else
-            nh_text_addf(w->out, "Near the state of rest %s only constants among the first integrals of ",
-                         formula(w, e->point));
+    bool few = e->at_most + 1 < e->letters;
+    if (few) {
+        nh_text_addf(w->out, "Near %s, where ", formula(w, e->point));
         put_equations(w);
+        if (e->at_most)
+            nh_text_addf(w->out, " rest, at most %zu independent first integral%s of theirs %s", e->at_most,
+                         plural(e->at_most), e->at_most == 1 ? "is" : "are");
+        else nh_text_add(w->out, " rest, of their first integrals only constants are");
         nh_text_addf(w->out,
-                     " %s real-analytic, or %s of real-analytic functions (theorem; the eigenvalues there "
-                     "span at least %zu dimensions over the rational numbers%s; proved modulo %zu).",
-                     e->at_most == 1 ? "is" : "are", e->at_most == 1 ? "a quotient" : "quotients", e->span,
-                     e->diagonalizable ? "" : ", and the linear equations cannot be diagonalized", (size_t)e->prime);
+                     " real-analytic, or %s of real-analytic functions (theorem; the eigenvalues there span at least "
+                     "%zu dimension%s over the rational numbers%s",
+                     e->at_most == 1 ? "a quotient" : "quotients", e->span, plural(e->span),
+                     e->diagonalizable ? "" : ", and the linear equations cannot be diagonalized");
+        put_prime(w, e->prime);
+        nh_text_add(w->out, ").");
     }
     if (e->divergence)
-        nh_text_addf(w->out,
-                     "%sNo measure with a positive density of class C^1 is preserved near the state of rest %s.",
-                     e->at_most + 1 < e->letters ? " " : "", formula(w, e->point));
+        nh_text_addf(w->out, "%sNo measure with a positive density of class C^1 is preserved near %s.", few ? " " : "",
+                     formula(w, e->point));
 }
 
 /* ---- all sentences ---- */

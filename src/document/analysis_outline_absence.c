@@ -71,6 +71,20 @@ static const char *factor(nh_arena *arena, const char *coefficient)
     return nh_arena_printf(arena, sum ? "(%s)" : "%s", coefficient);
 }
 
+/* "x^2 - 2" of FLINT's "x^2-2", so that lines can be broken. */
+static const char *spaced(nh_arena *arena, const char *polynomial)
+{
+    nh_text text;
+    nh_text_init(&text);
+    for (const char *c = polynomial; *c; c++) {
+        bool sign = (*c == '+' || *c == '-') && c > polynomial && c[-1] != ' ' && c[-1] != '(' && c[-1] != '^';
+        nh_text_addf(&text, sign ? " %c " : "%c", *c);
+    }
+    const char *out = nh_arena_strdup(arena, nh_text_string(&text));
+    nh_text_clear(&text);
+    return out;
+}
+
 static const char *equation_text(nh_arena *arena, const nh_absence_attempt *t)
 {
     const char *text = "u''";
@@ -109,10 +123,34 @@ static void attempt_row(nh_pen *p, const nh_analysis *r, const nh_absence_attemp
     nh_free(level);
 }
 
+/* The same on a terminal, where a table would be too wide. */
+static void attempt_fact(nh_pen *p, const nh_analysis *r, const nh_absence_attempt *t)
+{
+    const nh_normal_equation *e = t->equation;
+    char *level = nh_print_string(r->question->model->dag, e->level);
+    nh_pen_fact_begin(p, nh_arena_printf(r->arena, "%s, level %s", e->plane->words, level));
+    if (e->curve) nh_pen_say(p, "%s; ", e->curve);
+    if (e->obstacle) nh_pen_say(p, "no normal equation: %s", e->obstacle);
+    else nh_pen_say(p, "normal equation of size %zu", e->dimension);
+    if (!e->obstacle && e->blocks > 1)
+        nh_pen_say(p, " in %zu blocks%s", e->blocks, e->triangular ? ", triangular" : "");
+    if (!e->obstacle) nh_pen_say(p, "; group: %s", nh_absence_parts_group(r->arena, t));
+    if (t->obstacle) nh_pen_say(p, ", %s", t->obstacle);
+    nh_pen_close(p, NH_PEN_FACT);
+    nh_free(level);
+}
+
 static void motions(nh_pen *p, const nh_analysis *r)
 {
     const nh_absence *a = r->absence;
     if (!a->attempts) return;
+    if (p->ink->brief) {
+        nh_pen_heading(p, "Motions that were tried");
+        nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+        for (size_t i = 0; i < a->attempts; i++) attempt_fact(p, r, &a->attempt[i]);
+        nh_pen_close(p, NH_PEN_FACTS);
+        return;
+    }
     nh_pen_table(p, "Motions that were tried, and the normal variational equations along them",
                  "plane|level|motion|equations|group");
     for (size_t i = 0; i < a->attempts; i++) attempt_row(p, r, &a->attempt[i]);
@@ -143,7 +181,8 @@ static void invariants(nh_pen *p, const nh_kovacic *k)
     for (size_t i = 0; i < NH_KOVACIC_INVARIANTS; i++) {
         const nh_kovacic_invariant *v = &k->invariant[i];
         nh_pen_say(p, i ? "; of degree %zu: " : "of degree %zu: ", (size_t)v->m);
-        if (v->possible) nh_pen_say(p, "none with P of degree up to %ld", (long)v->degree);
+        if (v->possible && v->solutions < 0) nh_pen_say(p, "not needed");
+        else if (v->possible) nh_pen_say(p, "none with P of degree up to %ld", (long)v->degree);
         else nh_pen_say(p, "the exponents allow none");
     }
     nh_pen_close(p, NH_PEN_FACT);
@@ -152,14 +191,16 @@ static void invariants(nh_pen *p, const nh_kovacic *k)
 static void kovacic_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *t)
 {
     const nh_kovacic *k = t->kovacic;
-    nh_pen_heading(p, "Why the group is SL(2)");
+    nh_pen_heading(p, k->group == NH_GROUP_SL2 ? "Why the group is SL(2)"
+                                               : "Why the group is SL(2) or triangular, of dimension 2");
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     equation_facts(p, arena, t);
     nh_pen_fact_begin(p, "Normal form");
-    nh_pen_say(p, "<%s>, <%s>", "u'' = r*u", nh_arena_printf(arena, "r = (%s)/(%s)", k->r_num, k->r_den));
+    nh_pen_say(p, "<%s>, <%s>", "u'' = r*u",
+               nh_arena_printf(arena, "r = (%s)/(%s)", spaced(arena, k->r_num), spaced(arena, k->r_den)));
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact(p, "Singular points", "%s, infinity included", k->regular ? "all regular" : "some irregular");
-    nh_pen_fact(p, "Prime", "%zu", (size_t)k->prime);
+    if (k->prime) nh_pen_fact(p, "Prime", "%zu", (size_t)k->prime);
     nh_pen_fact_begin(p, "Poles");
     nh_pen_say(p, "modulo the prime ");
     residue_list(p, k->poles, k->pole);
@@ -198,13 +239,14 @@ static void monodromy_facts(nh_pen *p, const nh_normal_equation *e, const nh_mon
 
 static void residue_facts(nh_pen *p, const nh_residues *s)
 {
-    if (!s->factor || !s->residue) return;
+    const char *at = s->factor && strcmp(s->factor, "1/x") != 0 ? s->factor : NULL; /* NULL: infinity */
+    if (!s->factor) return;
     nh_pen_heading(p, "Why the group is infinite");
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     nh_pen_fact_begin(p, s->verdict == NH_RESIDUE_MEROMORPHIC ? "Residue" : "Irregular point");
-    if (s->verdict == NH_RESIDUE_MEROMORPHIC)
-        nh_pen_say(p, "<%s> at the zeros of <%s>, which is not rational", s->residue, s->factor);
-    else nh_pen_say(p, "at the zeros of <%s>", s->factor);
+    if (s->verdict == NH_RESIDUE_MEROMORPHIC && s->residue) nh_pen_say(p, "<%s>, not rational, ", s->residue);
+    if (at) nh_pen_say(p, "at the zeros of <%s>", at);
+    else nh_pen_say(p, "at infinity");
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_close(p, NH_PEN_FACTS);
 }
@@ -213,9 +255,16 @@ static void certificate(nh_pen *p, const nh_analysis *r)
 {
     const nh_absence_attempt *t = nh_absence_parts_best(r->absence);
     if (!t || r->absence->contradiction) return;
-    if (t->kovacic && t->kovacic->group == NH_GROUP_SL2) kovacic_facts(p, r->arena, t);
-    else if (t->residues && t->residues->verdict != NH_RESIDUE_OPEN) residue_facts(p, t->residues);
-    else if (t->monodromy) monodromy_facts(p, t->equation, t->monodromy);
+    switch (nh_absence_parts_reason_of(r->absence)) {
+    case NH_ABSENCE_BY_GROUP:
+    case NH_ABSENCE_BY_BLOCK:
+    case NH_ABSENCE_BY_TRIANGULAR: kovacic_facts(p, r->arena, t); break;
+    case NH_ABSENCE_BY_RESIDUE:
+    case NH_ABSENCE_BY_IRREGULAR: residue_facts(p, t->residues); break;
+    case NH_ABSENCE_BY_MONODROMY: monodromy_facts(p, t->equation, t->monodromy); break;
+    case NH_ABSENCE_BY_DARBOUX:
+    case NH_ABSENCE_BY_NOTHING: break;
+    }
 }
 
 /* ---- potentials and states of rest ---- */
@@ -242,7 +291,9 @@ static void rest(nh_pen *p, const nh_analysis *r)
 {
     const nh_absence *a = r->absence;
     if (!a->resonances) return;
-    nh_pen_table(p, "States of rest: at most so many integrals are real-analytic near them, or quotients of such",
+    nh_pen_table(p,
+                 "States of rest and steady motions: at most so many integrals are real-analytic near them, or "
+                 "quotients of such",
                  "state|characteristic polynomial|#letters|#span of the eigenvalues|#at most|prime");
     for (size_t i = 0; i < a->resonances; i++) {
         const nh_resonance *e = a->resonance[i];
@@ -250,11 +301,12 @@ static void rest(nh_pen *p, const nh_analysis *r)
         nh_pen_open(p, NH_PEN_ROW_HEAD, NULL, NULL);
         put_formulas(p, r->arena, e->point);
         nh_pen_close(p, NH_PEN_ROW_HEAD);
-        nh_pen_cell(p, NH_PEN_CELL, "<%s>", e->polynomial);
+        nh_pen_cell(p, NH_PEN_CELL, "<%s>", spaced(r->arena, e->polynomial));
         nh_pen_cell(p, NH_PEN_CELL, "%zu", e->letters);
         nh_pen_cell(p, NH_PEN_CELL, "%zu", e->span);
         nh_pen_cell(p, NH_PEN_CELL, "%zu", e->at_most);
-        nh_pen_cell(p, NH_PEN_CELL, "%zu", (size_t)e->prime);
+        if (e->prime) nh_pen_cell(p, NH_PEN_CELL, "%zu", (size_t)e->prime);
+        else nh_pen_cell(p, NH_PEN_CELL, "%s", "\u2013");
         nh_pen_close(p, NH_PEN_ROW);
     }
     nh_pen_table_end(p);

@@ -156,6 +156,22 @@ static const nh_glossary_entry entries[] = {
      "(power series modulo a prime) and a lower one (products of the currents) agree. Integrals of other "
      "kinds, and those of higher degree, are not excluded. Equations that are defined piece by piece are "
      "counted where the domain lies, and the report says where."},
+    {"no other integral",
+     "The theorem that every first integral of a class is a function of those found. A particular motion, in complex "
+     "time, is surrounded by a linear equation; if its Galois group or its monodromy moves a general vector in all "
+     "directions, there is no room for another integral that is meromorphic near this motion (--absence)."},
+    {"meromorphic",
+     "A function is meromorphic if it is, near each complex state, a quotient of two power series: poles are allowed, "
+     "logarithms, irrational powers and essential singularities are not. It is single-valued."},
+    {"invariant plane",
+     "States with x = 0, theta = pi/2 and such, which motions do not leave, and on which one coordinate moves alone. "
+     "Along such motions the linear equations for others near by are simple."},
+    {"normal variational equation", "The linear equation for the motions next to a particular one, without the "
+                                    "direction along it and without those that known integrals hold."},
+    {"Galois group", "The group of all linear maps of the solutions of a linear differential equation that keep all "
+                     "algebraic relations between them and their derivatives. Where all singular points are regular it "
+                     "is the closure of the monodromy: what loops of complex time do to solutions. SL(2): all 2 x 2 "
+                     "matrices of determinant 1; such an equation has no solution in closed form."},
     {"proved", "The rate of change is zero as an exact expression."},
     {"certified", "The rate of change is zero to at least 50 digits in ball arithmetic."},
     {"residual", "The rate of change of a current at points that were not used to find it, relative to the size of "

@@ -231,7 +231,8 @@ class System:
 
     # ---- questions ----
 
-    def analyze(self, accuracy: Optional[float] = None, until: Optional[float] = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None) -> Analysis:
+    def analyze(self, accuracy: Optional[float] = None, until: Optional[float] = None, options: Optional[Pairs] = None, progress: Optional[Progress] = None,
+                *, absence: bool = False) -> Analysis:
         """Currents and their symmetries.
 
         Parameters
@@ -244,6 +245,8 @@ class System:
             Numerical options (docs/options.md), {"seed": 3}.
         progress : callable, optional
             progress(doing, part) is called now and then; part is None where it is not known.
+        absence : bool
+            All motions, levels and methods for the question whether there is any other integral, not only the cheap ones.
 
         Returns
         -------
@@ -254,6 +257,8 @@ class System:
         >>> nhsym.system("damped_oscillator").analyze()
         <Analysis of damped_oscillator: FOUND, 2 independent currents of at most 2, search complete>
         """
+        if absence:
+            options = ", ".join(filter(None, [pairs_text("options", options), "absence=1"]))
         p = self._ask(dict(accuracy=accuracy, until=until, options=options))
         return p.call(lambda error: library().nh_analyze(p.address, error), progress, lambda a: Analysis(a, p))
 

@@ -28,6 +28,14 @@ def states(system, count=300):
     return draw.uniform(0.1, 1, (m, count)), draw.uniform(0.1, 1, (m, count)), draw.uniform(0, 1, count)
 
 
+def test_whether_there_is_any_other_integral():
+    """The option reaches the library, and the answer is a part of the JSON."""
+    question = nhsym.system("damped_oscillator")
+    assert "absence" in question.analyze(absence=True, options={"seed": 2}).json
+    with pytest.raises(nhsym.Error, match="absence"):
+        question.analyze(options={"absence": 2})
+
+
 def test_currents(analysis):
     assert analysis.verdict == "FOUND" and analysis.independent == 5 and analysis.most == 5
     energy = analysis["Phi1"]
