@@ -15,6 +15,8 @@ nh_ex nh_rational_value_at(const nh_rational_value_place *place, nh_ex e)
 
 bool nh_rational_value_of(nh_dag *dag, nh_ex e, fmpq_t out)
 {
+    NH_LIST(symbol);
+    if (nh_symbols_in(dag, e, &symbol)) return false;
     if (nh_kind_of(dag, e) != NH_NUMBER) e = nh_simplify(dag, e);
     if (nh_kind_of(dag, e) != NH_NUMBER || !nh_num_exact(nh_number_of(dag, e))) return false;
     mpq_t value;
@@ -25,16 +27,31 @@ bool nh_rational_value_of(nh_dag *dag, nh_ex e, fmpq_t out)
     return true;
 }
 
-/* Is the value of e at the place certainly not 0? */
-static bool differs(const nh_rational_value_place *place, nh_ex e)
+nh_ex nh_rational_value_number(nh_dag *dag, const fmpq_t value)
+{
+    mpq_t copy;
+    mpq_init(copy);
+    fmpq_get_mpq(copy, value);
+    nh_ex out = nh_number(dag, nh_num_of_mpq(copy));
+    mpq_clear(copy);
+    return out;
+}
+
+bool nh_rational_value_differs(nh_dag *dag, nh_ex e)
 {
     enum { bits = 192 };
-    e = nh_substitute(place->dag, e, place->count, place->symbol, place->value);
-    if (nh_kind_of(place->dag, e) == NH_NUMBER) return nh_num_value(nh_number_of(place->dag, e)) != 0;
-    nh_ball *ball = nh_ball_create(place->dag, bits);
+    if (nh_kind_of(dag, e) == NH_NUMBER) return nh_num_value(nh_number_of(dag, e)) != 0;
+    nh_ball *ball = nh_ball_create(dag, bits);
     bool differs = nh_ball_excludes_zero(ball, e);
     nh_ball_free(ball);
     return differs;
+}
+
+/* Is the value of e at the place certainly not 0? */
+static bool differs(const nh_rational_value_place *place, nh_ex e)
+{
+    return nh_rational_value_differs(place->dag,
+                                     nh_substitute(place->dag, e, place->count, place->symbol, place->value));
 }
 
 /* A base may vanish only below a whole positive exponent. */

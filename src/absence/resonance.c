@@ -13,7 +13,7 @@
 enum {
     primes = 40,         /* that are tried */
     before_prime = 1000, /* the first is above it */
-    most_field = 12      /* degree of the field that holds the roots modulo p */
+    most_field = 24      /* degree of the field that holds the roots modulo p */
 };
 
 /* ---- the span of the roots modulo a prime ---- */
@@ -103,13 +103,10 @@ static bool mirrored(const fmpz_poly_t f, const fmpz_poly_t g)
 /* An upper bound of the dimension over Q: the roots of an irreducible factor add up to a rational number, those of an
  * even one are pairs of opposite ones, and those of a mirrored one are known.  No further prime is tried where it is
  * reached. */
-static size_t most_span(const fmpz_poly_t f)
+static size_t most_span(const fmpz_poly_factor_t parts)
 {
     size_t most = 0;
     bool rational = false; /* is there a rational number that is not 0 in the span? */
-    fmpz_poly_factor_t parts;
-    fmpz_poly_factor_init(parts);
-    fmpz_poly_factor(parts, f);
     for (slong i = 0; i < parts->num; i++) {
         const fmpz_poly_struct *g = parts->p + i;
         slong degree = fmpz_poly_degree(g);
@@ -118,20 +115,67 @@ static size_t most_span(const fmpz_poly_t f)
         if (degree > 0) rational |= !fmpz_is_zero(fmpz_poly_get_coeff_ptr(g, degree - 1));
         if (!known) most += (size_t)(degree > 1 && mirrored(g, g) ? degree / 2 : degree - 1);
     }
-    fmpz_poly_factor_clear(parts);
     return most + rational;
 }
 
-/* The best of the primes. */
+/* The discriminant of a factor of degree 2. */
+static void discriminant(fmpz_t out, const fmpz_poly_t f)
+{
+    enum { four = 4 };
+    fmpz_t part;
+    fmpz_init(part);
+    fmpz_mul(out, fmpz_poly_get_coeff_ptr(f, 1), fmpz_poly_get_coeff_ptr(f, 1));
+    fmpz_mul(part, fmpz_poly_get_coeff_ptr(f, 0), fmpz_poly_get_coeff_ptr(f, 2));
+    fmpz_submul_ui(out, part, four);
+    fmpz_clear(part);
+}
+
+/* The dimension of the span of the roots of the factors of degree 1 and 2: square roots of whole numbers whose
+ * quotients are no squares are independent over Q. */
+static size_t span_of_squares(const fmpz_poly_factor_t parts)
+{
+    size_t span = 0;
+    bool rational = false;
+    fmpz_t d, other;
+    fmpz_init(d);
+    fmpz_init(other);
+    for (slong i = 0; i < parts->num; i++) {
+        const fmpz_poly_struct *g = parts->p + i;
+        slong degree = fmpz_poly_degree(g);
+        if (degree > 2) continue;
+        rational |= !fmpz_is_zero(fmpz_poly_get_coeff_ptr(g, degree - 1));
+        if (degree < 2) continue;
+        discriminant(d, g);
+        bool known = false;
+        for (slong j = 0; j < i && !known; j++) {
+            if (fmpz_poly_degree(parts->p + j) != 2) continue;
+            discriminant(other, parts->p + j);
+            fmpz_mul(other, other, d);
+            known = fmpz_is_square(other);
+        }
+        span += !known;
+    }
+    fmpz_clear(other);
+    fmpz_clear(d);
+    return span + rational;
+}
+
+/* The best of the primes, and of the factors of degree 1 and 2 alone. */
 static void bound_span(nh_resonance *out, const fmpz_poly_t f)
 {
-    size_t most = most_span(f);
-    out->span = most > 0;
-    for (ulong p = before_prime, i = 0; i < primes && out->span < most; i++) {
+    fmpz_poly_factor_t parts;
+    fmpz_poly_factor_init(parts);
+    fmpz_poly_factor(parts, f);
+    size_t most = most_span(parts), squares = span_of_squares(parts);
+    fmpz_poly_factor_clear(parts);
+    ulong p = before_prime;
+    for (int i = 0; i < primes && out->span < most; i++) {
         p = n_nextprime(p, 1);
         size_t span = span_modulo(f, p);
         if (span > out->span) out->span = span, out->prime = p;
     }
+    if (!squares) squares = most > 0;
+    if (squares > out->span) out->span = squares, out->prime = 0;
 }
 
 /* ---- diagonalizable ---- */

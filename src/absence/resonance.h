@@ -17,12 +17,14 @@
 
 typedef struct {
     const char *point;      /* "theta = 0, omega = 0": where the shape rests; NULL: of a matrix */
+    bool steady;            /* a velocity is not 0 there: it rests while coordinates that are left out move */
+    const nh_ex *value;     /* of the shape's letters there; NULL: of a matrix */
     const char *polynomial; /* characteristic, of the linear equations there: "lambda^3 - lambda - 1" */
     size_t letters;         /* n */
     size_t span;            /* at least the dimension over Q of the span of the eigenvalues */
     bool diagonalizable;    /* false: proved that it is not */
     size_t at_most;         /* independent integrals */
-    ulong prime;            /* that shows it; 0: span is 0, or 1 because some eigenvalue is not 0 */
+    ulong prime;            /* that shows it; 0: rational eigenvalues and square roots show more than any prime */
     bool divergence;        /* div X is not 0 there: no measure with a positive density of class C^1 exists near it */
 } nh_resonance;
 

@@ -12,12 +12,13 @@
 #include "graph/print.h"
 
 enum {
-    places = 4,          /* of an angle: 0, pi, pi/2, -pi/2 */
-    opposite_places = 2, /* 0 and pi */
-    most_angles = 3,     /* at all of them */
-    most_opposite = 6,   /* at 0 and pi; more angles: at 0 */
-    most_letters = 24,   /* of a shape */
-    most_nodes = 4000000 /* of all rates that are evaluated */
+    places = 4,           /* of an angle: 0, pi, pi/2, -pi/2 */
+    opposite_places = 2,  /* 0 and pi */
+    most_angles = 3,      /* at all of them */
+    most_opposite = 6,    /* at 0 and pi; more angles: at 0 */
+    most_letters = 24,    /* of a shape */
+    most_nodes = 4000000, /* of all rates that are evaluated, and the work on matrices in the same measure */
+    matrix_work = 4       /* times the fourth power of their size */
 };
 
 typedef struct {
@@ -91,6 +92,10 @@ static void keep(work *w, nh_resonance *resonance)
         if (!strcmp(w->found[i]->polynomial, resonance->polynomial) &&
             w->found[i]->diagonalizable == resonance->diagonalizable)
             return;
+    nh_ex *value = nh_arena_alloc(w->arena, w->shape->count * sizeof *value);
+    memcpy(value, w->value, w->shape->count * sizeof *value);
+    resonance->value = value;
+    for (size_t i = w->shape->coordinates; i < w->shape->count; i++) resonance->steady |= !nh_is_zero(w->dag, value[i]);
     resonance->point = words(w);
     nh_grow(&w->found, &w->capacity, w->count + 1, sizeof *w->found);
     size_t at = w->count++;
@@ -100,9 +105,11 @@ static void keep(work *w, nh_resonance *resonance)
 
 static void try_state(work *w)
 {
+    size_t n = w->shape->count;
     if (w->nodes > most_nodes || !rests(w)) return;
+    w->nodes += matrix_work * n * n * n * n;
     fmpq_mat_t matrix;
-    fmpq_mat_init(matrix, (slong)w->shape->count, (slong)w->shape->count);
+    fmpq_mat_init(matrix, (slong)n, (slong)n);
     if (linear_equations(w, matrix)) keep(w, nh_resonance_of(w->arena, matrix));
     fmpq_mat_clear(matrix);
 }
