@@ -290,15 +290,21 @@ Test(absence_words, states_of_rest)
     x.a.resonances = 1;
     x.a.resonance = x.rests;
     x.rest.divergence = true;
+    x.a.known = 1;
     says(&x, "Not decided whether there is any other integral. Nothing is excluded by this, and nothing is found. "
-             "Near x = 0, x' = 0, where the equations of s, theta, s', theta', z' rest, at most 1 independent first integral of theirs is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101). No measure with a positive density of class C^1 is preserved near x = 0, x' = 0.");
-    says_briefly(&x, "Near x = 0, x' = 0, where the equations of s, theta, s', theta', z' rest, at most 1 independent first integral of theirs is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101).");
+             "Near the state of rest x = 0, x' = 0 at most 1 independent first integral of the equations of s, theta, s', theta', z' is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101). No measure with a positive density of class C^1 is preserved near the state of rest x = 0, x' = 0.");
+    says_briefly(&x, "Near the state of rest x = 0, x' = 0 at most 1 independent first integral of the equations of s, theta, s', theta', z' is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101).");
+    x.rest.at_most = 2; /* more than are known: of use to those who asked */
+    says_briefly(&x, NULL);
+    x.a.everything = true;
+    cr_expect_not_null(nh_absence_words_short(x.r, 4));
+    x.a.everything = false;
     /* no prime was needed */
     x.rest = (nh_resonance){.point = "x = 0, x' = 0", .polynomial = "x^5", .letters = 5, .span = 1, .diagonalizable = false, .at_most = 3};
-    cr_expect(strstr(nh_absence_words_sentence(x.r), "at most 3 independent first integrals of theirs are real-analytic, or quotients of real-analytic functions (theorem; the eigenvalues there span at least 1 dimension over the rational numbers, and the linear equations cannot be diagonalized)."),
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "at most 3 independent first integrals of the equations of s, theta, s', theta', z' are real-analytic, or quotients of real-analytic functions (theorem; the eigenvalues there span at least 1 dimension over the rational numbers, and the linear equations cannot be diagonalized)."),
               "%s", nh_absence_words_sentence(x.r));
     x.rest.at_most = 0;
-    cr_expect(strstr(nh_absence_words_sentence(x.r), "rest, of their first integrals only constants are real-analytic, or quotients"), "%s", nh_absence_words_sentence(x.r));
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "Near the state of rest x = 0, x' = 0 only constants among the first integrals of the equations of s, theta, s', theta', z' are real-analytic, or quotients"), "%s", nh_absence_words_sentence(x.r));
     x.rest.at_most = 4; /* as everywhere */
     says(&x, "Not decided whether there is any other integral. Nothing is excluded by this, and nothing is found.");
     says_briefly(&x, NULL);
