@@ -336,7 +336,7 @@ static double complex value(const fmpz_poly_struct *p, double complex x)
     return v;
 }
 
-enum { most = 4, pieces = 192 };
+enum { most = 4, pieces = 256 };
 
 static void slope(const nh_linear_equation *e, double complex x, double complex h, const double complex *y,
                   double complex *out)
