@@ -14,6 +14,7 @@
 #   make reductions reduce every system from STATES=50 initial states, and write docs/reductions.md
 #   make random    analyse 200 random systems with built-in symmetries (SYSTEMS=N SEED=N), and print the table
 #   make parameters give every system other parameter values, compare its formulas, and write docs/parameters.md (it continues where it was stopped; SEED=N)
+#   make absence   is there any other integral, of the systems of the literature, of families and of the catalogue: writes docs/absence.md (minutes)
 #   make fields    fit fields in each system, and write docs/fields.md (minutes)
 #   make stages    leave out each row of the search over five sets of systems, and write docs/stages.md (an hour; it continues where it was stopped)
 #   make perturbed analyse copies of every system with a small term added, and print the table
@@ -113,7 +114,7 @@ SECONDS = 60
 HAS_MPI := $(if $(SANITIZE),,$(shell pkg-config --exists mpi-c 2>/dev/null && echo yes))
 CLI_MPI  = $(filter-out %/main.o %/archives.o,$(CLI)) $(BUILD)/mpi/mpi_main.o $(BUILD)/mpi/archives.o
 
-.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers work_precision reductions random parameters perturbed stages fields classification house site fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized help debug coverage format compile_commands.json
+.PHONY: all library sleigh check check-all threads tests benches same-tests install uninstall wheel deb deb-source bench catalogue pictures papers work_precision reductions random parameters perturbed stages fields absence classification house site fuzz print-libraries print-includes clean FORCE FORCE-same packages test-packages check-packages check-plain check-sanitized help debug coverage format compile_commands.json
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -208,6 +209,10 @@ stages: test-packages
 fields: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) benches
 	$(call page,$(BUILD)/tests/bench_fields systems); tail -n 1 docs/$@.md; exit $$code
+
+absence: test-packages
+	@$(MAKE) --no-print-directory -j$(JOBS) benches
+	$(call page,$(BUILD)/tests/bench_absence systems); tail -n 1 docs/$@.md; exit $$code
 
 papers: test-packages
 	@$(MAKE) --no-print-directory -j$(JOBS) all benches

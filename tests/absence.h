@@ -9,20 +9,25 @@
 
 #include "absence/absence.h"
 #include "absence_systems.h"
+#include "base/clock.h"
 #include "commands/analyze.h"
 #include "graph/print.h"
 #include "scratch.h"
 
 enum { absence_points = 24 };
+static double absence_seconds; /* of the processor, for the last decision without the search before it */
 
-/* The analysis of a file, with the question whether there is any other integral; the caller frees it.  NULL: there is none. */
+/* The analysis of a file, with the question whether there is any other integral, asked of all planes and engines; the caller frees it.
+ * NULL: there is none. */
 static inline nh_analysis *absence_of_file(const char *path, nh_error *error)
 {
-    nh_request q = {.system_path = path, .absence = true};
+    nh_request q = {.system_path = path};
     nh_options_default(&q.options);
     q.options.max_seconds = 1e6; /* the same on every machine */
     nh_analysis *r = nh_analysis_create(&q, error);
-    if (r && !r->absence) nh_absence_find(r, true);
+    double begin = nh_clock_of_process();
+    if (r) nh_absence_find(r, true);
+    absence_seconds = nh_clock_of_process() - begin;
     return r;
 }
 
@@ -76,6 +81,15 @@ static inline unsigned absence_by(const nh_absence *a)
         if (absence_attempt_by_balls(&a->attempt[k])) by |= BY_BALLS;
     }
     return by;
+}
+
+/* The attempt that is shown: the one that decides, or the first with an engine; NULL: none. */
+static inline const nh_absence_attempt *absence_shown(const nh_absence *a)
+{
+    if (a->best < a->attempts) return &a->attempt[a->best];
+    for (size_t k = 0; k < a->attempts; k++)
+        if (a->attempt[k].kovacic || a->attempt[k].monodromy || a->attempt[k].residues) return &a->attempt[k];
+    return a->attempts ? a->attempt : NULL;
 }
 
 /* ---- integrals that exist ---- */

@@ -146,6 +146,54 @@ Test(kovacic, exponents_are_told)
     cr_expect_str_eq(k->exponent[2], "0.50000 i");
 }
 
+/* ---- no prime ---- */
+
+/* A factor of degree 10 whose group has 3628800 elements: 1 prime in so many splits it. */
+Test(kovacic, without_a_prime)
+{
+    put_text(r, "1  1/11  3 1 -4 0 0 2 0 0 1 5 7");
+    const nh_kovacic *k = decide();
+    cr_expect_eq(k->group, NH_GROUP_UNDECIDED);
+    cr_expect(strstr(k->obstacle, "no prime"), "%s", k->obstacle);
+    cr_expect_eq(k->prime, 0);
+    cr_expect_null(k->pole);
+}
+
+Test(kovacic, nothing_and_too_much)
+{
+    fmpz_poly_q_zero(r);
+    cr_expect_eq(decide()->group, NH_GROUP_OPEN);
+    put_text(r, "1  1/2  -1 1");
+    put_text(P, "2  0 1");
+    for (long i = 2; i < 70; i++) { /* 1/((x - 1) .. (x - 69)) */
+        fmpz_poly_q_t pole;
+        fmpz_poly_q_init(pole);
+        put_pole(pole, (ratio){1, 1}, i);
+        fmpz_poly_q_mul(r, r, pole);
+        fmpz_poly_q_clear(pole);
+    }
+    cr_expect_eq(decide()->group, NH_GROUP_UNDECIDED);
+    cr_expect_not_null(decide()->obstacle);
+}
+
+/* Many poles, all choices of signs with a whole degree: the work is counted. */
+Test(kovacic, many_poles)
+{
+    fmpz_poly_q_zero(P);
+    for (long i = 0; i < 12; i++) {
+        put_pole(Q, (ratio){1, 3}, i);
+        fmpz_poly_q_add(P, P, Q);
+    }
+    of_solution(r, P);
+    expect(NH_GROUP_OPEN, "12 poles, a solution");
+    put_text(Q, "1  1/3  0 0 1");
+    fmpz_poly_q_add(r, r, Q);
+    const nh_kovacic *k = decide();
+    cr_expect_eq(k->poles, 12);
+    cr_expect_eq(k->group, NH_GROUP_SL2);
+    cr_expect_eq(k->sign_vectors, k->degrees ? 4096 : 0);
+}
+
 /* ---- equations of mechanics ---- */
 
 Test(kovacic, henon_heiles)

@@ -22,13 +22,14 @@ static bool feels(nh_dag *dag, nh_ex rate, nh_ex symbol)
     return nh_depends(dag, rate, symbol) && nh_normal_is_zero(dag, nh_diff(dag, rate, symbol), longest_zero) != NH_ZERO;
 }
 
-/* Leaves out, again and again, coordinates that no remaining rate depends on. */
-static void leave_out(nh_closed_shape *shape)
+/* Leaves out, again and again, coordinates that neither a remaining rate nor one of n functions depends on. */
+static void leave_out(nh_closed_shape *shape, size_t n, const nh_ex *function)
 {
     nh_dag *dag = shape->model->dag;
     for (size_t i = 0; i < shape->coordinates;) {
         bool used = false;
         for (size_t j = 0; j < shape->count && !used; j++) used = feels(dag, shape->rate[j], shape->letter[i]);
+        for (size_t j = 0; j < n && !used; j++) used = feels(dag, function[j], shape->letter[i]);
         if (used) {
             i++;
             continue;
@@ -53,30 +54,33 @@ static bool is_periodic_call(nh_dag *dag, nh_ex call, nh_ex symbol)
     return nh_kind_of(dag, slope) == NH_NUMBER && nh_number_of(dag, slope).q == 1;
 }
 
-/* Does the symbol occur in no other way?  An argument of such a call is not looked into. */
-static bool is_angle(nh_dag *dag, size_t n, const nh_ex *rate, nh_ex symbol)
+/* An argument of such a call is not looked into. */
+bool nh_closed_shape_periodic(nh_dag *dag, size_t n, const nh_ex *e, nh_ex symbol)
 {
     NH_LIST(node);
-    size_t count = nh_nodes_in(dag, n, rate, &node);
-    size_t size = nh_dag_size(dag), found = 0;
+    size_t count = nh_nodes_in(dag, n, e, &node), size = nh_dag_size(dag);
     bool *inside = nh_alloc_array(size, sizeof *inside), good = true; /* depends in a way that is not periodic */
     for (size_t k = 0; k < count; k++) {
-        nh_ex e = node[k];
-        nh_kind kind = nh_kind_of(dag, e);
-        if (e == symbol) inside[e] = true;
+        nh_ex at = node[k];
+        nh_kind kind = nh_kind_of(dag, at);
+        if (at == symbol) inside[at] = true;
         if (kind == NH_NUMBER || kind == NH_SYMBOL) continue;
-        if (kind == NH_FUNCTION && nh_arity(dag, e) == 1 && is_periodic_call(dag, e, symbol)) {
-            found += nh_depends(dag, e, symbol);
-            continue;
-        }
-        for (size_t i = 0; i < nh_arity(dag, e); i++) {
-            inside[e] |= inside[nh_child(dag, e, i)];
-            if (kind == NH_PRODUCT) inside[e] |= inside[nh_exponent_of(dag, e, i)];
+        if (kind == NH_FUNCTION && nh_arity(dag, at) == 1 && is_periodic_call(dag, at, symbol)) continue;
+        for (size_t i = 0; i < nh_arity(dag, at); i++) {
+            inside[at] |= inside[nh_child(dag, at, i)];
+            if (kind == NH_PRODUCT) inside[at] |= inside[nh_exponent_of(dag, at, i)];
         }
     }
-    for (size_t i = 0; i < n; i++) good = good && !inside[rate[i]];
+    for (size_t i = 0; i < n; i++) good = good && !inside[e[i]];
     nh_free(inside);
-    return good && found > 0;
+    return good;
+}
+
+static bool is_angle(const nh_closed_shape *shape, nh_ex symbol)
+{
+    bool occurs = false;
+    for (size_t i = 0; i < shape->count; i++) occurs |= nh_depends(shape->model->dag, shape->rate[i], symbol);
+    return occurs && nh_closed_shape_periodic(shape->model->dag, shape->count, shape->rate, symbol);
 }
 
 /* ---- obstacles ---- */
@@ -117,6 +121,11 @@ static const char *obstacle_of(const nh_closed_shape *shape)
 
 nh_closed_shape *nh_closed_shape_of(nh_arena *arena, const nh_model *model)
 {
+    return nh_closed_shape_keeping(arena, model, 0, NULL);
+}
+
+nh_closed_shape *nh_closed_shape_keeping(nh_arena *arena, const nh_model *model, size_t n, const nh_ex *function)
+{
     nh_closed_shape *shape = nh_arena_alloc(arena, sizeof *shape);
     size_t all = model->m + model->n;
     NH_LIST(node);
@@ -135,9 +144,9 @@ nh_closed_shape *nh_closed_shape_of(nh_arena *arena, const nh_model *model)
         shape->obstacle = "the equations are too long";
         return shape;
     }
-    leave_out(shape);
+    leave_out(shape, n, function);
     shape->obstacle = obstacle_of(shape);
     for (size_t i = 0; i < shape->coordinates && !shape->obstacle; i++)
-        shape->angle[i] = is_angle(model->dag, shape->count, shape->rate, shape->letter[i]);
+        shape->angle[i] = is_angle(shape, shape->letter[i]);
     return shape;
 }

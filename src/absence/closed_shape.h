@@ -16,5 +16,10 @@ typedef struct {
 
 /* In the arena. */
 nh_closed_shape *nh_closed_shape_of(nh_arena *arena, const nh_model *model);
+/* The same with the coordinates on which n functions of the chart depend, such as the energy of a falling body. */
+nh_closed_shape *nh_closed_shape_keeping(nh_arena *arena, const nh_model *model, size_t n, const nh_ex *function);
+
+/* Do n expressions contain the symbol in sines, cosines and tangents of whole multiples of it only, or not at all? */
+bool nh_closed_shape_periodic(nh_dag *dag, size_t n, const nh_ex *e, nh_ex symbol);
 
 #endif

@@ -223,24 +223,33 @@ bool nh_curve_field_pow(const nh_curve_field *field, nh_curve_element *out, cons
     return good;
 }
 
-bool nh_curve_field_sqrt(nh_curve_element *out, const nh_curve_element *a)
+/* The sign of a/b, b with a positive leading coefficient, on a side; 0: it has none, or a pole. */
+static int sign_of(const fmpz_poly_t a, const fmpz_poly_t b, nh_curve_side side)
 {
-    if (!nh_curve_field_is_even(a)) return false;
+    int far = fmpz_sgn(fmpz_poly_lead(a));
+    bool odd = (fmpz_poly_degree(a) + fmpz_poly_degree(b)) % 2 != 0;
+    if (side != NH_CURVE_NEAR) return side == NH_CURVE_FAR_BELOW && odd ? -far : far;
+    return fmpz_sgn(a->coeffs) * fmpz_sgn(b->coeffs);
+}
+
+bool nh_curve_field_sqrt(nh_curve_element *out, const nh_curve_element *a, nh_curve_side side)
+{
+    if (!nh_curve_field_is_even(a) || nh_curve_field_is_zero(a)) return false;
     fmpz_poly_t product, root;
     fmpz_poly_init(product);
     fmpz_poly_init(root);
     fmpz_poly_mul(product, a->even, a->den);
-    bool good = fmpz_poly_sqrt(root, product);
-    if (good) {
+    int sign = fmpz_poly_sqrt(root, product) ? sign_of(root, a->den, side) : 0;
+    if (sign) {
         fmpz_poly_set(out->den, a->den);
-        if (fmpz_sgn(fmpz_poly_lead(root)) < 0) fmpz_poly_neg(root, root);
+        if (sign < 0) fmpz_poly_neg(root, root);
         fmpz_poly_swap(out->even, root);
         fmpz_poly_zero(out->odd);
         reduce(out);
     }
     fmpz_poly_clear(product);
     fmpz_poly_clear(root);
-    return good;
+    return sign != 0;
 }
 
 /* out = (n/d)' */

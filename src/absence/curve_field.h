@@ -55,8 +55,10 @@ void nh_curve_field_mul(const nh_curve_field *field, nh_curve_element *out, cons
 bool nh_curve_field_inv(const nh_curve_field *field, nh_curve_element *out, const nh_curve_element *a);
 /* n may be negative; false for a power of 0 that is no number. */
 bool nh_curve_field_pow(const nh_curve_field *field, nh_curve_element *out, const nh_curve_element *a, slong n);
-/* The root in Q(x) that is positive for large real x; false: there is none in Q(x). */
-bool nh_curve_field_sqrt(nh_curve_element *out, const nh_curve_element *a);
+/* Where square roots are positive: for large real x, for large -x, near 0. */
+typedef enum { NH_CURVE_FAR, NH_CURVE_FAR_BELOW, NH_CURVE_NEAR } nh_curve_side;
+/* The root in Q(x) that is positive there; false: there is none in Q(x), or it has no sign there. */
+bool nh_curve_field_sqrt(nh_curve_element *out, const nh_curve_element *a, nh_curve_side side);
 /* da/dx */
 void nh_curve_field_derivative(const nh_curve_field *field, nh_curve_element *out, const nh_curve_element *a);
 

@@ -31,7 +31,7 @@ static size_t index_of(const evaluation *v, nh_ex e)
     return low;
 }
 
-static void fail(evaluation *v, size_t k, nh_curve_state state, const char *why)
+static void note(evaluation *v, size_t k, nh_curve_state state, const char *why)
 {
     v->state[k] = state;
     v->why[k] = why;
@@ -49,7 +49,7 @@ static void set_number(nh_num a, fmpq_t out)
 static void number(evaluation *v, size_t k, nh_num a)
 {
     if (!nh_num_exact(a)) {
-        fail(v, k, NH_CURVE_SINGULAR, "rounded numbers remain");
+        note(v, k, NH_CURVE_SINGULAR, "rounded numbers remain");
         return;
     }
     fmpq_t q;
@@ -75,10 +75,10 @@ static void symbol(evaluation *v, size_t k)
     } else if (e == place->velocity) {
         nh_curve_field_set_w(&v->value[k]);
     } else if (e == place->coordinate) {
-        if (place->angle) fail(v, k, NH_CURVE_UNKNOWN, "an angle remains outside of sines and cosines");
+        if (place->angle) note(v, k, NH_CURVE_UNKNOWN, "an angle remains outside of sines and cosines");
         else nh_curve_field_set_x(&v->value[k]);
     } else {
-        fail(v, k, NH_CURVE_UNKNOWN, "letters without a value remain");
+        note(v, k, NH_CURVE_UNKNOWN, "letters without a value remain");
     }
 }
 
@@ -95,7 +95,7 @@ static void sum(evaluation *v, size_t k)
         size_t child = index_of(v, nh_child(dag, e, i));
         nh_num coefficient = nh_coefficient_of(dag, e, i);
         nh_curve_state state = nh_num_exact(coefficient) ? v->state[child] : NH_CURVE_SINGULAR;
-        if (state > v->state[k]) fail(v, k, state, v->why[child]);
+        if (state > v->state[k]) note(v, k, state, v->why[child]);
         if (v->state[k] != NH_CURVE_FINE) continue;
         set_number(coefficient, c);
         nh_curve_field_scale(&term, &v->value[child], c);
@@ -125,7 +125,7 @@ static nh_curve_state power(const evaluation *v, size_t base, nh_ex exponent, nh
     if (!numeric) return NH_CURVE_UNKNOWN;
     nh_curve_field_set(out, b);
     for (; x.q % 2 == 0; x.q /= 2)
-        if (!nh_curve_field_sqrt(out, out)) return NH_CURVE_UNKNOWN;
+        if (!nh_curve_field_sqrt(out, out, v->place->side)) return NH_CURVE_UNKNOWN;
     if (x.q != 1) return NH_CURVE_UNKNOWN;
     *why = pole;
     return nh_curve_field_pow(v->place->field, out, out, x.p) ? NH_CURVE_FINE : NH_CURVE_SINGULAR;
@@ -146,11 +146,11 @@ static void product(evaluation *v, size_t k)
         nh_curve_state state = v->state[base];
         if (state != NH_CURVE_SINGULAR) state = power(v, base, nh_exponent_of(dag, e, i), &factor, &why);
         if (state == NH_CURVE_FINE && nh_curve_field_is_zero(&factor)) zero = true;
-        if (state > v->state[k]) fail(v, k, state, why);
+        if (state > v->state[k]) note(v, k, state, why);
         if (v->state[k] == NH_CURVE_FINE) nh_curve_field_mul(v->place->field, &v->value[k], &v->value[k], &factor);
     }
     if (zero && v->state[k] == NH_CURVE_UNKNOWN) {
-        v->state[k] = NH_CURVE_FINE;
+        note(v, k, NH_CURVE_FINE, NULL);
         nh_curve_field_set_si(&v->value[k], 0);
     }
     nh_curve_field_element_clear(&factor);
@@ -240,9 +240,9 @@ static void trigonometric(evaluation *v, size_t k, nh_function f, nh_ex argument
     nh_curve_field_element_init(&sine);
     nh_curve_field_element_init(&cosine);
     if (!sine_of(v, argument, &sine, &cosine)) {
-        fail(v, k, f == NH_TAN ? NH_CURVE_SINGULAR : NH_CURVE_UNKNOWN, transcendental);
+        note(v, k, f == NH_TAN ? NH_CURVE_SINGULAR : NH_CURVE_UNKNOWN, transcendental);
     } else if (f == NH_TAN) {
-        if (!nh_curve_field_inv(v->place->field, &cosine, &cosine)) fail(v, k, NH_CURVE_SINGULAR, pole);
+        if (!nh_curve_field_inv(v->place->field, &cosine, &cosine)) note(v, k, NH_CURVE_SINGULAR, pole);
         else nh_curve_field_mul(v->place->field, &v->value[k], &sine, &cosine);
     } else {
         nh_curve_field_set(&v->value[k], f == NH_SIN ? &sine : &cosine);
@@ -274,7 +274,7 @@ static void call(evaluation *v, size_t k)
     nh_ex e = v->node[k];
     nh_function f = nh_function_of(dag, e);
     if (f == NH_PI) {
-        fail(v, k, NH_CURVE_UNKNOWN, irrational);
+        note(v, k, NH_CURVE_UNKNOWN, irrational);
         return;
     }
     nh_ex argument = nh_child(dag, e, 0);
@@ -292,7 +292,7 @@ static void call(evaluation *v, size_t k)
     }
     if (nh_arity(dag, e) == 1 && value_of_call(f, zero, one, &value)) nh_curve_field_set_si(&v->value[k], value);
     else
-        fail(v, k, entire && v->state[child] != NH_CURVE_SINGULAR ? NH_CURVE_UNKNOWN : NH_CURVE_SINGULAR,
+        note(v, k, entire && v->state[child] != NH_CURVE_SINGULAR ? NH_CURVE_UNKNOWN : NH_CURVE_SINGULAR,
              transcendental);
 }
 

@@ -13,6 +13,7 @@ typedef struct {
     nh_ex coordinate, velocity; /* symbols of x and w */
     bool angle;                 /* the field's variable is tan(x/2) */
     bool rest;                  /* w = 0 */
+    nh_curve_side side;         /* where roots are positive */
     size_t zeros;
     const nh_ex *zero; /* symbols that vanish on the curve */
 } nh_curve_place;

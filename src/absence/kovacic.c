@@ -72,13 +72,6 @@ static void bounds(const nh_kovacic_problem *problem, nh_kovacic *out)
     }
 }
 
-static bool nothing_possible(const nh_kovacic *out)
-{
-    bool possible = out->degrees;
-    for (size_t k = 0; k < NH_KOVACIC_INVARIANTS; k++) possible = possible || out->invariant[k].possible;
-    return !possible;
-}
-
 /* Some 1 + 4 b is not the square of a rational number. */
 static bool irrational(const nh_kovacic_problem *problem)
 {
@@ -121,7 +114,6 @@ static nh_kovacic_group group_of(nh_kovacic_problem *problem, nh_kovacic *out, u
     if (!nh_kovacic_degrees(problem, out)) return NH_GROUP_UNDECIDED;
     bounds(problem, out);
     if (!nh_kovacic_prime_find(problem, after)) {
-        if (nothing_possible(out)) return NH_GROUP_SL2;
         out->obstacle = "no prime was found modulo which the poles and exponents are residues";
         return NH_GROUP_UNDECIDED;
     }

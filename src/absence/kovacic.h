@@ -29,15 +29,15 @@ typedef struct {
     const char *r_num, *r_den; /* polynomials in x, as text */
     size_t num_length, den_length;
     const char **num, **den; /* their coefficients, lowest degree first */
-    ulong prime;             /* 0: none was needed, or none was found */
+    ulong prime;             /* not 0 where something is proved */
     size_t poles;
-    ulong *pole; /* modulo the prime */
+    ulong *pole; /* modulo the prime; NULL without one, as `root` */
     bool *double_pole;
     slong *order; /* per pole, then infinity: r ~ (x - c)^-order; at infinity r ~ x^-order, or 2 where it is smaller */
     ulong *root;  /* per pole, then infinity: a square root of 1 + 4 b, of double poles and where infinity is regular;
                      of the leading coefficient of r at irregular points of even order; else 0 */
     const char **exponent; /* per pole, then infinity: sqrt(1 + 4 b) as text, "2/3" or "0.8819"; "1", of a simple pole;
-                              "irregular of order 4" */
+                              "irregular of order 4".  Conjugate poles are not in the order of `pole` */
     size_t degrees;        /* that Riccati's P may have */
     slong *degree_of_p;
     size_t sign_vectors; /* that were tried, each up to the largest degree */
@@ -49,8 +49,8 @@ typedef struct {
  * for regular equations only.  Decides; all of the answer is in the arena.  The same for the same r, always. */
 nh_kovacic *nh_kovacic_decide(nh_arena *arena, const fmpz_poly_t r_num, const fmpz_poly_t r_den);
 
-/* Puts into the object what tests/check_certificate.py reads: r_num, r_den (coefficients as texts, lowest degree first),
- * prime, poles, roots (of order 1: 0), root_infinity, degrees, and invariants, each with m, lowest and degree. */
+/* Puts into the object what tests/check_certificate.py reads: r_num, r_den (coefficients as texts, lowest degree
+ * first), prime, poles, roots, root_infinity, degrees, and invariants, each with m, lowest and degree. */
 void nh_kovacic_certificate(nh_json *object, const nh_kovacic *kovacic);
 
 /* "SL(2)", "triangular, of dimension 2, or SL(2)", "open", "undecided". */

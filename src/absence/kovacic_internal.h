@@ -1,6 +1,6 @@
 /* kovacic_internal: what the parts of kovacic.c share.
  *
- * At a pole c of r write t = x - c, at infinity x.  A solution whose logarithmic derivative is rational begins there with
+ * At a pole c of r write t = x - c, at infinity t = x.  A solution whose logarithmic derivative is rational begins with
  *
  *     exp(sign int [sqrt r]) t^e,   e = half/2 + sign weight
  *

@@ -370,7 +370,7 @@ static void exponent_texts(const nh_kovacic_problem *problem, nh_kovacic *out)
 bool nh_kovacic_degrees(nh_kovacic_problem *problem, nh_kovacic *out)
 {
     slong bits = first_bits;
-    while (!weights(problem, bits) && bits <= most_bits) bits *= 2;
+    while (bits <= most_bits && !weights(problem, bits)) bits *= 2;
     exponent_texts(problem, out);
     if (bits > most_bits) out->obstacle = "exponents are not known to enough digits";
     if (problem->odd || out->obstacle) return !out->obstacle;

@@ -4,11 +4,13 @@
  * so are the square roots of all 1 + 4 b, and of the leading coefficients of r at irregular points, which are not 0. */
 #include "absence/kovacic_internal.h"
 
+#include <flint/fmpz_vec.h>
 #include <flint/nmod_poly_factor.h>
 #include <flint/ulong_extras.h>
 #include <stdlib.h>
 
-enum { most_trials = 200000 };
+/* Of primes for which the cheap conditions hold; of all. */
+enum { most_trials = 30000, most_primes = 1000000 };
 
 static int by_size(const void *a, const void *b)
 {
@@ -16,7 +18,8 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Cheap conditions first: rational numbers that must be squares, and discriminants of quadratic factors. */
+/* Cheap conditions first: numbers that must be squares modulo the prime: 1 + 4 b where they are rational, and
+ * discriminants, since no factor has roots that are not residues (Stickelberger). */
 typedef struct {
     size_t count;
     fmpz *must_be_square; /* integers */
@@ -24,7 +27,7 @@ typedef struct {
 
 static void read_conditions(const nh_kovacic_problem *problem, conditions *c)
 {
-    c->must_be_square = _fmpz_vec_init(2 * (slong)problem->places + 1);
+    c->must_be_square = _fmpz_vec_init(2 * (slong)problem->places + 2);
     c->count = 0;
     for (size_t i = 0; i <= problem->places; i++) {
         const nh_kovacic_place *place = problem->place + i;
@@ -121,11 +124,9 @@ static bool roots(nh_kovacic_problem *problem)
     return true;
 }
 
-static bool suits(nh_kovacic_problem *problem, const conditions *c)
+static bool suits(nh_kovacic_problem *problem)
 {
     ulong prime = problem->prime, *next = problem->pole;
-    if (!hold(c, prime) || !fmpz_fdiv_ui(fmpz_poly_lead(problem->den), prime)) return false;
-    if (prime <= problem->poles) return false; /* some residue is no pole */
     for (size_t i = 0; i < problem->places; i++) {
         if (!split(problem->place + i, prime, next)) return false;
         next += fmpz_poly_degree(problem->place[i].factor);
@@ -139,11 +140,14 @@ bool nh_kovacic_prime_find(nh_kovacic_problem *problem, ulong after)
     read_conditions(problem, &c);
     bool found = false;
     problem->prime = after;
-    for (size_t trial = 0; trial < most_trials && !found; trial++) {
+    for (size_t tried = 0, trials = 0; tried < most_primes && trials < most_trials && !found; tried++) {
         problem->prime = n_nextprime(problem->prime, 0);
-        found = suits(problem, &c);
+        if (problem->prime <= problem->poles) continue; /* some residue must be no pole */
+        if (!hold(&c, problem->prime) || !fmpz_fdiv_ui(fmpz_poly_lead(problem->den), problem->prime)) continue;
+        found = suits(problem);
+        trials++;
     }
-    _fmpz_vec_clear(c.must_be_square, 2 * (slong)problem->places + 1);
+    _fmpz_vec_clear(c.must_be_square, 2 * (slong)problem->places + 2);
     if (!found) problem->prime = 0;
     return found;
 }

@@ -13,10 +13,10 @@
 #include <flint/nmod_mat.h>
 #include <flint/ulong_extras.h>
 
-enum { most_signs = 22, enough = 2 };
+enum { most_signs = 22, enough = 2, products = 20 /* for each choice */ };
 
-/* Of the entries of all matrices, each as often as a row is reduced: a second, about. */
-static const double most_work = 4e9;
+/* Of the entries of all matrices, each as often as a row is reduced, and of products of polynomials: seconds, about. */
+static const double most_work = 1e9;
 
 typedef struct {
     const nh_kovacic_problem *problem;
@@ -186,7 +186,7 @@ static void last_coefficient(const choices *c, const nmod_poly_t T, nmod_poly_t 
 static void add_column(const nmod_poly_t f, slong shift, ulong factor, slong column, nmod_mat_t rows)
 {
     for (slong i = 0; i < nmod_poly_length(f); i++) {
-        mp_limb_t *entry = &nmod_mat_entry(rows, i + shift, column);
+        ulong *entry = &nmod_mat_entry(rows, i + shift, column);
         *entry = n_addmod(*entry, n_mulmod2(nmod_poly_get_coeff_ui(f, i), factor, rows->mod.n), rows->mod.n);
     }
 }
@@ -210,7 +210,7 @@ static slong kernel(choices *c, ulong minus, int infinity, slong most)
         if (j) add_column(T, j - 1, n_addmod(first, first, c->prime), j, rows);
         add_column(N, j, 1, j, rows);
     }
-    c->work += (double)nmod_mat_nrows(rows) * (double)((most + 1) * (most + 1));
+    c->work += (double)nmod_mat_nrows(rows) * (double)((most + 1) * (most + 1)) + (double)(products * length * length);
     slong dimension = most + 1 - nmod_mat_rank(rows);
     nmod_mat_clear(rows);
     nmod_poly_clear(N);

@@ -12,12 +12,14 @@ typedef struct {
     size_t singular, steps, words; /* points, Taylor steps, elements of the Lie algebra used */
     /* loops are closed paths in the x-plane without the singular points: regular or irregular, the rank is that of the
      * monodromy group alone */
-    const char **trace; /* per loop and block: of the monodromy, 20 digits; blocks x singular, row by row */
+    const char **trace; /* per block and loop: of the monodromy, "re + im i" as balls of 20 digits; blocks x singular,
+                         * row by row; NULL: the loops were not all followed */
 } nh_monodromy;
 
-/* The direct sum of `blocks` equations, continued along the same loops; in the arena. */
+/* The direct sum of `blocks` equations, continued along the same loops; in the arena.  Blocks of size 1 are allowed,
+ * and equal ones.  Work is counted, and has a limit. */
 nh_monodromy *nh_monodromy_of(nh_arena *arena, size_t blocks, const nh_linear_equation *block, long bits);
-/* The same with more bits, to 4 times as many, until the rank is full. */
+/* The same with 256 bits, and with 512 and 1024, until the rank is full or more bits cannot help. */
 nh_monodromy *nh_monodromy_try(nh_arena *arena, size_t blocks, const nh_linear_equation *block);
 
 #endif

@@ -15,6 +15,7 @@ enum {
     most_longer = 24, /* words of three to six letters */
     shortest = 3,
     longer_lengths = 4,
+    small_part = 4, /* what is less than 2^(-bits/4) of the largest, may be 0 */
     most_letters = 8
 };
 
@@ -85,16 +86,33 @@ static void span_apply(span *s, const acb_mat_struct *element)
     }
 }
 
-/* Is the ball wider than 2^e? */
-static bool radius_above(const acb_t x, slong e)
+/* Is some ball of the vector or matrix wider than `tolerance`? */
+static bool wider(acb_srcptr x, size_t count, const mag_t tolerance)
 {
-    return mag_cmp_2exp_si(arb_radref(acb_realref(x)), e) > 0 || mag_cmp_2exp_si(arb_radref(acb_imagref(x)), e) > 0;
+    bool is = false;
+    for (size_t k = 0; k < count && !is; k++)
+        is = mag_cmp(arb_radref(acb_realref(x + k)), tolerance) > 0 ||
+             mag_cmp(arb_radref(acb_imagref(x + k)), tolerance) > 0;
+    return is;
 }
 
-/* Does A x lie outside of the span of the others, certainly?  Then its row joins them. */
-static bool span_raised(span *s, const acb_mat_struct *element)
+/* 2^e times a bound of the largest absolute value, and of `least`. */
+static void part_of_largest(mag_t tolerance, acb_srcptr x, size_t count, ulong least, slong e)
 {
-    span_apply(s, element);
+    mag_t size;
+    mag_init(size);
+    mag_set_ui(tolerance, least);
+    for (size_t k = 0; k < count; k++) {
+        acb_get_mag(size, x + k);
+        mag_max(tolerance, tolerance, size);
+    }
+    mag_mul_2exp_si(tolerance, tolerance, e);
+    mag_clear(size);
+}
+
+/* The row behind the others minus what it has of them. */
+static void span_reduce(span *s)
+{
     acb_t factor;
     acb_init(factor);
     acb_ptr row = acb_mat_entry(s->row, (slong)s->rank, 0);
@@ -106,18 +124,26 @@ static bool span_raised(span *s, const acb_mat_struct *element)
         acb_zero(row + s->pivot[r]); /* exactly, by choice of the factor */
     }
     acb_clear(factor);
+}
+
+/* Does A x lie outside of the span of the others, certainly?  Then its row joins them. */
+static bool span_raised(span *s, const acb_mat_struct *element)
+{
+    mag_t tolerance;
+    mag_init(tolerance);
+    span_apply(s, element);
+    acb_srcptr row = acb_mat_entry(s->row, (slong)s->rank, 0);
+    part_of_largest(tolerance, row, s->size, 1, -s->sum->bits / small_part);
+    span_reduce(s);
     size_t best = s->size;
-    bool wide = false; /* is some ball around 0 no small one? */
-    for (size_t k = 0; k < s->size; k++) {
-        if (acb_contains_zero(row + k)) wide = wide || radius_above(row + k, -s->sum->bits / 4);
-        else if (acb_is_finite(row + k) && (best == s->size || larger(row + k, row + best))) best = k;
-    }
-    if (best == s->size) {
-        s->inaccurate = s->inaccurate || wide;
-        return false;
-    }
-    s->pivot[s->rank++] = best;
-    return true;
+    for (size_t k = 0; k < s->size; k++)
+        if (!acb_contains_zero(row + k) && acb_is_finite(row + k) && (best == s->size || larger(row + k, row + best)))
+            best = k;
+    bool raised = best < s->size;
+    if (raised) s->pivot[s->rank++] = best;
+    else if (wider(row, s->size, tolerance)) s->inaccurate = true; /* is it 0, or not known well enough? */
+    mag_clear(tolerance);
+    return raised;
 }
 
 /* Keeps a copy of an element that raises the rank. */
@@ -231,24 +257,12 @@ static bool log_of_moduli(acb_mat_t A, const acb_mat_t g, slong bits, bool *modu
 /* Is the matrix known to less than half of the bits? */
 static bool coarse(const acb_mat_t g, slong bits)
 {
-    mag_t largest, size;
-    mag_init(largest);
-    mag_init(size);
-    for (slong i = 0; i < acb_mat_nrows(g); i++)
-        for (slong j = 0; j < acb_mat_ncols(g); j++) {
-            acb_get_mag(size, acb_mat_entry(g, i, j));
-            mag_max(largest, largest, size);
-        }
-    mag_mul_2exp_si(largest, largest, -bits / 2);
-    bool is = false;
-    for (slong i = 0; i < acb_mat_nrows(g); i++)
-        for (slong j = 0; j < acb_mat_ncols(g); j++) {
-            acb_srcptr x = acb_mat_entry(g, i, j);
-            is = is || mag_cmp(arb_radref(acb_realref(x)), largest) > 0 ||
-                 mag_cmp(arb_radref(acb_imagref(x)), largest) > 0;
-        }
-    mag_clear(largest);
-    mag_clear(size);
+    size_t entries = (size_t)(acb_mat_nrows(g) * acb_mat_ncols(g));
+    mag_t tolerance;
+    mag_init(tolerance);
+    part_of_largest(tolerance, g->entries, entries, 0, -bits / 2);
+    bool is = wider(g->entries, entries, tolerance);
+    mag_clear(tolerance);
     return is;
 }
 

@@ -7,8 +7,9 @@
 enum {
     direction_bits = 64, /* of lengths */
     corners = 16,        /* of the polygon around a point: sides of 0.39 radii */
-    reach = 13,
-    reach_of = 32 /* a step is 0.41 of the distance to the nearest singular point */
+    most_steps = 4096,   /* of a path */
+    reach = 13,          /* a step is 13/32 of the distance to the nearest singular point */
+    reach_of = 32
 };
 
 static void path_add(nh_monodromy_path *path, const acb_t z)
@@ -26,7 +27,8 @@ void nh_monodromy_path_clear(nh_monodromy_path *path)
     *path = (nh_monodromy_path){0};
 }
 
-/* The distance of z from the nearest singular point but `skip`; false: it may be 0, or there is none. */
+/* A lower bound of the distance of z from the nearest singular point but `skip`; false: it may be 0, or there is
+ * none. */
 static bool nearest(arb_t distance, const nh_monodromy_sum *sum, const acb_t z, size_t skip)
 {
     acb_t d;
@@ -42,6 +44,8 @@ static bool nearest(arb_t distance, const nh_monodromy_sum *sum, const acb_t z, 
     }
     acb_clear(d);
     arb_clear(size);
+    arb_get_lbound_arf(arb_midref(distance), distance, direction_bits);
+    mag_zero(arb_radref(distance));
     return arb_is_positive(distance) && arb_is_finite(distance);
 }
 
@@ -75,8 +79,6 @@ static bool path_step(const nh_monodromy_sum *sum, nh_monodromy_path *path, cons
     arb_clear(length);
     return good;
 }
-
-enum { most_steps = 4096 }; /* of a path */
 
 static bool path_to(const nh_monodromy_sum *sum, nh_monodromy_path *path, const acb_t end)
 {

@@ -5,9 +5,9 @@
  *
  *     E_(k+1) = sum_j N_j C_(k-j) - sum_(j>=1) D_j E_(k+1-j),   C_k = E_k/k,
  *
- * and are rounded to exact numbers, one after another: no ball depends on an earlier one.  So Y~ = C_0 + .. + C_n t^n is
- * an exact polynomial, and its residual R_a = D_a Y~_a' - (N Y~)_a has coefficients that the balls of E_k bound, those
- * behind the end of the series included.  By variation of constants
+ * and are rounded to exact numbers, one after another: no ball depends on an earlier one.  So Y~ = C_0 + .. + C_n t^n
+ * is an exact polynomial, and its residual R_a = D_a Y~_a' - (N Y~)_a has coefficients that the balls of E_k bound,
+ * those behind the end of the series included.  By variation of constants
  *
  *     |Y(1) - Y~(1)| <= exp(int |A|) max_a (sum_k |R_ak| / min |D_a|),
  *
@@ -24,6 +24,8 @@ enum {
     envelope = 2,     /* bits by which a coefficient may fall short of the one before without being believed */
     room = 64,        /* coefficients between two moves of the window */
     strongest = 8,    /* int |A| may be bits/8 */
+    farthest = 3,     /* |h| is at most 3/4 of the distance to the next singular point */
+    farthest_of = 4,
     most_terms_per_bit = 16,
     most_halvings = 24,
     word = 64
@@ -37,7 +39,8 @@ typedef struct {
     acb_ptr c, e;               /* n x n x span: C_k and k C_k */
     arb_ptr smallest;           /* n: of |D_a| */
     arb_t strength;             /* int |A| */
-    arb_ptr residual;           /* n x n: sum of |R_ak| */
+    bool converges;             /* |h| is a good part smaller than the distance to the next singular point */
+    mag_ptr residual;           /* n x n: sum of |R_ak| */
     uint64_t products;          /* per coefficient */
 } series;
 
@@ -50,7 +53,7 @@ static void series_init(series *s, const nh_monodromy_sum *sum, const nh_monodro
     for (size_t k = 0; k < s->n * s->n; k++) acb_poly_init(s->num + k);
     for (size_t a = 0; a < s->n; a++) acb_poly_init(s->den + a);
     s->smallest = _arb_vec_init((slong)s->n);
-    s->residual = _arb_vec_init((slong)(s->n * s->n));
+    s->residual = _mag_vec_init((slong)(s->n * s->n));
     arb_init(s->strength);
     s->c = s->e = NULL;
     s->span = 0;
@@ -63,7 +66,7 @@ static void series_clear(series *s)
     nh_free(s->num);
     nh_free(s->den);
     _arb_vec_clear(s->smallest, (slong)s->n);
-    _arb_vec_clear(s->residual, (slong)(s->n * s->n));
+    _mag_vec_clear(s->residual, (slong)(s->n * s->n));
     arb_clear(s->strength);
     if (s->c) _acb_vec_clear(s->c, (slong)(s->n * s->n * s->span));
     if (s->e) _acb_vec_clear(s->e, (slong)(s->n * s->n * s->span));
@@ -174,6 +177,24 @@ static void piece_bound(arb_t norm, series *s, const nh_monodromy_sum *sum, cons
     arb_clear(den);
 }
 
+/* Is |slope| at most 3/4, for every point where the block is singular? */
+static bool within(const nh_monodromy_sum *sum, const nh_monodromy_block *block, acb_srcptr slope)
+{
+    bool is = true;
+    arb_t size;
+    arb_init(size);
+    for (size_t i = 0; i < sum->points && is; i++) {
+        bool singular = false;
+        for (size_t a = 0; a < block->size; a++) singular = singular || block->order[a * sum->points + i];
+        acb_abs(size, slope + i, bound_bits);
+        arb_mul_ui(size, size, farthest_of, bound_bits);
+        arb_sub_ui(size, size, farthest, bound_bits);
+        is = !singular || arb_is_nonpositive(size);
+    }
+    arb_clear(size);
+    return is;
+}
+
 /* The bounds on the straight line. */
 static void series_bounds(series *s, const nh_monodromy_sum *sum, const nh_monodromy_block *block, const acb_t z,
                           const acb_t h)
@@ -187,6 +208,7 @@ static void series_bounds(series *s, const nh_monodromy_sum *sum, const nh_monod
         acb_sub(slope + i, z, sum->point + i, sum->bits);
         acb_div(slope + i, h, slope + i, bound_bits);
     }
+    s->converges = within(sum, block, slope);
     for (size_t a = 0; a < s->n; a++) arb_one(s->smallest + a);
     arb_zero(s->strength);
     for (slong k = 0; k < pieces; k++) {
@@ -248,9 +270,9 @@ static slong exponent_of(const acb_t x)
 static slong series_coefficient(series *s, size_t k, long bits, bool ended, acb_mat_t sum)
 {
     acb_t ball;
-    arb_t size;
+    mag_t size;
     acb_init(ball);
-    arb_init(size);
+    mag_init(size);
     slong exponent = -ARF_PREC_EXACT;
     for (size_t entry = 0; entry < s->n * s->n; entry++) {
         acb_ptr c = s->c + entry * s->span + s->at, e = s->e + entry * s->span + s->at;
@@ -267,11 +289,11 @@ static slong series_coefficient(series *s, size_t k, long bits, bool ended, acb_
         slong now = exponent_of(e);
         if (now > exponent) exponent = now;
         acb_sub(ball, e, ball, bound_bits);
-        acb_abs(size, ball, bound_bits);
-        arb_add(s->residual + entry, s->residual + entry, size, bound_bits);
+        acb_get_mag(size, ball);
+        mag_add(s->residual + entry, s->residual + entry, size);
     }
     acb_clear(ball);
-    arb_clear(size);
+    mag_clear(size);
     return exponent;
 }
 
@@ -314,7 +336,9 @@ static void series_error(series *s, acb_mat_t T)
     for (size_t b = 0; b < s->n; b++) {
         arb_zero(error);
         for (size_t a = 0; a < s->n; a++) {
-            arb_div(row, s->residual + a * s->n + b, s->smallest + a, bound_bits);
+            arf_set_mag(arb_midref(row), s->residual + a * s->n + b);
+            mag_zero(arb_radref(row));
+            arb_div(row, row, s->smallest + a, bound_bits);
             arb_max(error, error, row, bound_bits);
         }
         arb_mul(error, error, growth, bound_bits);
@@ -333,7 +357,7 @@ static bool series_mild(const series *s)
     arb_t most;
     arb_init(most);
     arb_set_si(most, s->bits / strongest);
-    bool mild = arb_is_finite(s->strength) && arb_lt(s->strength, most);
+    bool mild = s->converges && arb_is_finite(s->strength) && arb_lt(s->strength, most);
     for (size_t a = 0; a < s->n; a++) mild = mild && arb_is_positive(s->smallest + a);
     arb_clear(most);
     return mild;

@@ -62,7 +62,7 @@ static bool is_field(const nh_normal_work *work, const nh_curve_element *differe
     nh_curve_element square;
     nh_curve_field_element_init(&square);
     square_from(work, difference, inertia, &square);
-    bool good = !nh_curve_field_sqrt(&square, &square);
+    bool good = !nh_curve_field_sqrt(&square, &square, NH_CURVE_FAR);
     nh_curve_field_element_clear(&square);
     return good;
 }

@@ -9,6 +9,7 @@
 
 #include "graph/dag.h"
 #include "graph/diff.h"
+#include "graph/function.h"
 
 /* Values of derivatives that are given as expressions of the plane's letters. */
 static void values_of(const nh_normal_work *work, size_t n, nh_ex *e, nh_curve_element *value, nh_curve_state *state,
@@ -32,29 +33,46 @@ static void variable_rate(nh_normal_work *work, const nh_curve_element *rate)
     nh_curve_field_element_clear(&factor);
 }
 
+/* Is w' what the curve says, (w^2)'/(2 w) x'?  It is, if the curve is a level of an integral. */
+static bool moves_along(const nh_normal_work *work, const nh_curve_element *velocity_rate)
+{
+    nh_curve_element w;
+    nh_curve_field_element_init(&w);
+    nh_curve_field_set_w(&w);
+    nh_curve_field_derivative(&work->field, &w, &w);
+    nh_curve_field_mul(&work->field, &w, &w, &work->rate);
+    bool good = nh_curve_field_equal(&w, velocity_rate);
+    nh_curve_field_element_clear(&w);
+    return good;
+}
+
 /* B and the rate. */
 static bool normal_block(nh_normal_work *work)
 {
-    size_t n = work->normals, entries = n * n;
+    enum { others = 2 }; /* the rates on the plane itself */
+    size_t n = work->normals, entries = n * n, all = entries + others;
     const nh_plane *plane = work->plane;
-    nh_ex *e = nh_alloc_array(entries + 1, sizeof *e);
-    nh_curve_element *value = nh_curve_field_elements(entries + 1);
-    nh_curve_state *state = nh_alloc_array(entries + 1, sizeof *state);
-    const char **why = nh_alloc_array(entries + 1, sizeof *why);
+    nh_ex *e = nh_alloc_array(all, sizeof *e);
+    nh_curve_element *value = nh_curve_field_elements(all);
+    nh_curve_state *state = nh_alloc_array(all, sizeof *state);
+    const char **why = nh_alloc_array(all, sizeof *why);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++) e[i * n + j] = nh_diff(work->dag, plane->rate[2 + i], plane->y[2 + j]);
     e[entries] = plane->rate[0];
-    values_of(work, entries + 1, e, value, state, why);
+    e[entries + 1] = plane->rate[1];
+    values_of(work, all, e, value, state, why);
     bool good = true;
-    for (size_t k = 0; k <= entries && good; k++)
+    for (size_t k = 0; k < all && good; k++)
         if (state[k] != NH_CURVE_FINE) good = nh_normal_equation_refuse(work, why[k]);
     for (size_t k = 0; k < entries && good; k++) nh_curve_field_set(&work->block[k], &value[k]);
     if (good) variable_rate(work, &value[entries]);
     if (good && nh_curve_field_is_zero(&work->rate)) good = nh_normal_equation_refuse(work, "nothing moves");
+    if (good && !moves_along(work, &value[entries + 1]))
+        good = nh_normal_equation_refuse(work, "the integral does not hold on the plane");
     nh_free(e);
     nh_free(state);
     nh_free(why);
-    nh_curve_field_elements_free(value, entries + 1);
+    nh_curve_field_elements_free(value, all);
     return good;
 }
 
@@ -120,6 +138,29 @@ static bool is_constant(const nh_normal_work *work, const nh_curve_element *eta)
     return good;
 }
 
+/* Is it known that the integral has one value near the curve, up to signs of roots? */
+static bool has_one_value(const nh_normal_work *work, size_t k)
+{
+    NH_LIST(call);
+    nh_ex F = work->integral[k];
+    bool good = !work->plane->angle || nh_closed_shape_periodic(work->dag, 1, &F, work->plane->y[0]);
+    for (size_t i = nh_functions_in(work->dag, F, &call); i-- > 0;) {
+        nh_function f = nh_function_of(work->dag, call[i]);
+        good = good && (f == NH_SIN || f == NH_COS || f == NH_TAN || f == NH_EXP || f == NH_SINH || f == NH_COSH ||
+                        f == NH_TANH || f == NH_PI);
+    }
+    return good;
+}
+
+/* The integral is used. */
+static void use(nh_normal_work *work, size_t k)
+{
+    nh_normal_equation *out = work->out;
+    out->used[out->known++] = k;
+    out->generic = out->generic && work->known->generic[k];
+    out->single_valued = out->single_valued && has_one_value(work, k);
+}
+
 /* The integrals' covectors; those that vanish, or are no elements of K, are not used. */
 static bool hold(nh_normal_work *work)
 {
@@ -130,8 +171,7 @@ static bool hold(nh_normal_work *work)
     nh_curve_field_element_init(&lambda);
     good = slopes_of(work, work->determines, energy) && nh_curve_field_inv(&work->field, &energy[0], &energy[0]);
     if (!good) nh_normal_equation_refuse(work, "the differential of the integral has no value on the plane");
-    out->used[out->known++] = work->determines;
-    out->generic = out->generic && work->known->generic[work->determines];
+    use(work, work->determines);
     for (size_t k = 0; k < work->known->count && good; k++) {
         if (k == work->determines) continue;
         bool usable = slopes_of(work, k, slope);
@@ -139,12 +179,8 @@ static bool hold(nh_normal_work *work)
         for (size_t j = 1; usable && j < n; j++) nh_curve_field_submul(&work->field, &slope[j], &lambda, &energy[j]);
         if (usable && !is_constant(work, slope + 1))
             good = nh_normal_equation_refuse(work, "an integral does not hold near the plane");
-        if (good && usable && join(work, slope + 1)) {
-            out->used[out->known++] = k;
-            out->generic = out->generic && work->known->generic[k];
-        } else {
-            out->unused++;
-        }
+        if (good && usable && join(work, slope + 1)) use(work, k);
+        else out->unused++;
     }
     nh_curve_field_element_clear(&lambda);
     nh_curve_field_elements_free(energy, n);

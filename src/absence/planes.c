@@ -1,12 +1,13 @@
 /* planes: candidates are rejected by numbers, and proved by zero tests.
  *
  *     coordinates that rest: 0; angles: 0, pi, pi/2, -pi/2
- *     moving:                one coordinate x, or two with y = x, -x (angles: also x + pi, pi - x)
+ *     moving:                one coordinate x; two with y = x, -x (angles: also x + pi, pi - x); more with y = x, -x
  *     velocity:              w with x' = alpha(x) w on the plane; the others 0 */
 #include "absence/planes.h"
 
 #include <math.h>
 
+#include "absence/curve_value.h"
 #include "base/text.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
@@ -232,6 +233,85 @@ static const char *words_of(const search *s)
     return words;
 }
 
+/* ---- roots ---- */
+
+/* Signs of the roots of rates on each side: bit r for root r; known[side]: all have signs. */
+typedef struct {
+    unsigned negative[NH_CURVE_NEAR + 1];
+    bool known[NH_CURVE_NEAR + 1];
+} root_signs;
+
+static void add_root(const search *s, const nh_plane *plane, nh_ex radicand, size_t index, root_signs *signs)
+{
+    nh_curve_field field;
+    nh_curve_element value, root, near;
+    nh_curve_state state;
+    nh_ex e = nh_model_values(s->shape->model, radicand);
+    nh_curve_field_init(&field);
+    nh_curve_field_element_init(&value);
+    nh_curve_field_element_init(&root);
+    nh_curve_field_element_init(&near);
+    nh_curve_place place = {.dag = s->dag,
+                            .field = &field,
+                            .coordinate = plane->y[0],
+                            .velocity = plane->y[1],
+                            .zeros = s->shape->count - 2,
+                            .zero = plane->y + 2};
+    nh_curve_value(&place, 1, &e, &value, &state, NULL);
+    bool rational = state == NH_CURVE_FINE && nh_curve_field_sqrt(&root, &value, NH_CURVE_FAR);
+    for (nh_curve_side side = NH_CURVE_FAR; rational && side <= NH_CURVE_NEAR; side++) {
+        bool known = nh_curve_field_sqrt(&near, &value, side);
+        signs->known[side] &= known;
+        if (known && !nh_curve_field_equal(&near, &root)) signs->negative[side] |= 1u << index;
+    }
+    nh_curve_field_element_clear(&value);
+    nh_curve_field_element_clear(&root);
+    nh_curve_field_element_clear(&near);
+    nh_curve_field_clear(&field);
+}
+
+static root_signs signs_of(const search *s, const nh_plane *plane)
+{
+    enum { most_roots = 32 };
+    root_signs signs = {.known = {true, true, true}};
+    size_t roots = 0;
+    for (size_t i = 0; i < s->shape->count && !plane->angle; i++) {
+        NH_LIST(found);
+        size_t n = nh_radicands_in(s->dag, plane->rate[i], &found);
+        for (size_t k = 0; k < n && roots < most_roots; k++) add_root(s, plane, found[k], roots++, &signs);
+    }
+    return signs;
+}
+
+static void add_plane(search *s, nh_plane plane, nh_curve_side side, const char *words)
+{
+    if (s->count == most_planes) return;
+    plane.side = side;
+    plane.words = words;
+    s->plane[s->count++] = plane;
+}
+
+/* The plane once for each pattern of signs that its roots have. */
+static void add_sides(search *s, const nh_plane *plane)
+{
+    static const char *const relation[] = {" > 0", " < 0", " near 0"};
+    root_signs signs = signs_of(s, plane);
+    const char *words = words_of(s), *name = nh_name_of(s->dag, plane->y[0]);
+    bool alone = true;
+    for (nh_curve_side side = NH_CURVE_FAR_BELOW; side <= NH_CURVE_NEAR; side++)
+        alone = alone && signs.negative[side] == 0;
+    if (alone) {
+        add_plane(s, *plane, NH_CURVE_FAR, words);
+        return;
+    }
+    for (nh_curve_side side = NH_CURVE_FAR; side <= NH_CURVE_NEAR; side++) {
+        bool fresh = signs.known[side];
+        for (nh_curve_side other = NH_CURVE_FAR; other < side; other++)
+            fresh = fresh && !(signs.known[other] && signs.negative[other] == signs.negative[side]);
+        if (fresh) add_plane(s, *plane, side, nh_arena_printf(s->arena, "%s, %s%s", words, name, relation[side]));
+    }
+}
+
 /* ---- all candidates ---- */
 
 static void try_candidate(search *s)
@@ -241,8 +321,7 @@ static void try_candidate(search *s)
     new_letters(s, &plane);
     new_rates(s, &plane);
     if (is_singular(s, &plane) || !is_invariant(s, &plane)) return;
-    plane.words = words_of(s);
-    s->plane[s->count++] = plane;
+    add_sides(s, &plane);
 }
 
 /* The next values of the coordinates that neither move nor have a fixed rest; false after the last. */
@@ -318,6 +397,51 @@ static void pair(search *s, size_t i, size_t j)
     nh_free(fixed);
 }
 
+/* The next pattern of 0, 1, -1 per coordinate, as digits of a number in base 3. */
+static bool next_pattern(int *sign, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        sign[i] = sign[i] == 0 ? 1 : sign[i] == 1 ? -1 : 0;
+        if (sign[i]) return true;
+    }
+    return false;
+}
+
+/* The candidate of a pattern; false where fewer than three move, the first backwards, or one has no velocity. */
+static bool begin_pattern(search *s, const int *sign)
+{
+    enum { fewest = 3 };
+    const nh_closed_shape *shape = s->shape;
+    size_t n = shape->coordinates, first = n, moving = 0;
+    for (size_t i = n; i-- > 0;) {
+        if (!sign[i]) continue;
+        if (velocity_of(shape, i) == shape->count) return false;
+        first = i;
+        moving++;
+    }
+    if (moving < fewest || sign[first] < 0) return false;
+    begin_candidate(s, first, velocity_of(shape, first));
+    for (size_t i = 0; i < n; i++)
+        if (sign[i]) s->at.coefficient[i] = s->at.coefficient[velocity_of(shape, i)] = sign[i];
+    return true;
+}
+
+/* Three coordinates and more that move alike. */
+static void groups(search *s)
+{
+    enum { most_coordinates = 5 };
+    const nh_closed_shape *shape = s->shape;
+    size_t n = shape->coordinates;
+    if (n > most_coordinates) return;
+    int sign[most_coordinates] = {0};
+    bool fixed[most_coordinates];
+    while (next_pattern(sign, n)) {
+        if (!begin_pattern(s, sign)) continue;
+        for (size_t i = 0; i < n; i++) fixed[i] = sign[i] != 0;
+        try_places(s, fixed, most_pair_places);
+    }
+}
+
 size_t nh_planes_find(nh_arena *arena, const nh_closed_shape *shape, nh_plane **out)
 {
     const nh_model *model = shape->model;
@@ -336,6 +460,7 @@ size_t nh_planes_find(nh_arena *arena, const nh_closed_shape *shape, nh_plane **
     single(&s);
     for (size_t i = 0; i < shape->coordinates; i++)
         for (size_t j = i + 1; j < shape->coordinates; j++) pair(&s, i, j);
+    groups(&s);
     nh_free(s.in);
     nh_free(s.out);
     nh_free(s.at.coefficient);

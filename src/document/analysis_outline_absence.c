@@ -201,10 +201,12 @@ static void kovacic_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact(p, "Singular points", "%s, infinity included", k->regular ? "all regular" : "some irregular");
     if (k->prime) nh_pen_fact(p, "Prime", "%zu", (size_t)k->prime);
-    nh_pen_fact_begin(p, "Poles");
-    nh_pen_say(p, "modulo the prime ");
-    residue_list(p, k->poles, k->pole);
-    nh_pen_close(p, NH_PEN_FACT);
+    if (k->pole && k->poles) {
+        nh_pen_fact_begin(p, "Poles");
+        nh_pen_say(p, "modulo the prime ");
+        residue_list(p, k->poles, k->pole);
+        nh_pen_close(p, NH_PEN_FACT);
+    }
     nh_pen_fact_begin(p, "Exponents");
     nh_pen_say(p, "differences at the poles, then at infinity: ");
     for (size_t i = 0; i <= k->poles; i++) nh_pen_say(p, i ? ", %s" : "%s", k->exponent[i]);
@@ -274,7 +276,7 @@ static void darboux(nh_pen *p, const nh_darboux *d)
     if (!d || !d->applies) return;
     nh_pen_heading(p, "The homogeneous potential");
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
-    nh_pen_fact(p, "Degree", "%ld", d->degree);
+    nh_pen_fact(p, "Degree", "%.4g", (double)d->degree);
     nh_pen_fact(p, "Straight motions", "%zu lines found, %zu with eigenvalues that were not decided", d->points,
                 d->undecided);
     if (d->refuted) {
