@@ -179,6 +179,7 @@ Test(absence_words, angles_and_letters_left_out)
              "Also excluded: finitely many-valued ones. "
              "Not excluded: integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, ones that are not periodic in the angles, and integrals that contain z or t. "
              "1 of those found is many-valued near these motions, or contains t: it is not of this class.");
+    cr_expect(strstr(nh_absence_words_short(x.r, 4), " is a function of quantity 1 (theorem; a residue is not rational). 1 of those above is many-valued there. Not excluded: "), "%s", nh_absence_words_short(x.r, 4));
     x.residues.verdict = NH_RESIDUE_RATIONAL;
     x.a.rational = true;
     x.a.many_valued = 0;

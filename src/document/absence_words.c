@@ -331,6 +331,9 @@ static const char *short_words(const nh_analysis *r, bool generic, bool exceptio
     nh_text_init(&text);
     nh_absence_writer w = {.r = r, .a = &a, .best = nh_absence_parts_best(&a), .brief = true, .out = &text};
     put_statement(&w);
+    if (nh_absence_parts_excludes(&a) && a.many_valued)
+        nh_text_addf(&text, " %zu of those above %s many-valued there.", a.many_valued,
+                     a.many_valued == 1 ? "is" : "are");
     if (nh_absence_parts_excludes(&a) && exceptions) nh_text_add(&text, " "), put_not_excluded(&w);
     else if (nh_absence_parts_excludes(&a)) {
         nh_text_add(&text, " Not excluded: ones that contain ");
