@@ -276,7 +276,7 @@ static void darboux(nh_pen *p, const nh_darboux *d)
     if (!d || !d->applies) return;
     nh_pen_heading(p, "The homogeneous potential");
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
-    nh_pen_fact(p, "Degree", "%.4g", (double)d->degree);
+    nh_pen_fact(p, "Degree", "%ld", d->degree);
     nh_pen_fact(p, "Straight motions", "%zu lines found, %zu with eigenvalues that were not decided", d->points,
                 d->undecided);
     if (d->refuted) {
