@@ -200,7 +200,7 @@ static void put_not_excluded(const nh_absence_writer *w)
         nh_text_add(w->out, "integrals with other singularities on these complex motions (logarithms, irrational "
                             "powers; real-analytic ones may have them), smooth ones, ");
     if (!w->brief && nh_absence_parts_periodic(a)) nh_text_add(w->out, "ones that are not periodic in the angles, ");
-    nh_text_add(w->out, w->brief ? "ones that contain " : "and integrals that contain ");
+    nh_text_add(w->out, w->brief ? "ones with " : "and integrals that contain ");
     nh_absence_words_put_left_out(w, " or ", true);
     nh_text_add(w->out, ".");
 }
@@ -321,21 +321,33 @@ static size_t lines_of(const char *words)
     return n;
 }
 
-/* What is left out first where room is short: the other values of parameters, then what is not excluded but for the
- * letters that are left out. */
-static const char *short_words(const nh_analysis *r, bool generic, bool exceptions)
+/* What is left out where room is short, more and more: the other values of parameters; what is not excluded, but for the
+ * letters that are left out; the letters of the equations, of which those left out then are told. */
+enum { all_words, for_these_values, few_exceptions, unnamed_letters };
+
+static const char *short_words(const nh_analysis *r, int short_of)
 {
     nh_absence a = *r->absence;
-    a.generic &= generic;
+    a.generic &= short_of < for_these_values;
     nh_text text;
     nh_text_init(&text);
-    nh_absence_writer w = {.r = r, .a = &a, .best = nh_absence_parts_best(&a), .brief = true, .out = &text};
+    nh_absence_writer w = {.r = r,
+                           .a = &a,
+                           .best = nh_absence_parts_best(&a),
+                           .brief = true,
+                           .unnamed = short_of >= unnamed_letters,
+                           .out = &text};
     put_statement(&w);
-    if (nh_absence_parts_excludes(&a) && exceptions) nh_text_add(&text, " "), put_not_excluded(&w);
-    else if (nh_absence_parts_excludes(&a)) {
-        nh_text_add(&text, " Not excluded: ones that contain ");
+    bool excludes = nh_absence_parts_excludes(&a);
+    if (excludes && a.many_valued)
+        nh_text_addf(&text, " %zu of those above %s many-valued there.", a.many_valued,
+                     a.many_valued == 1 ? "is" : "are");
+    if (excludes && short_of < few_exceptions) nh_text_add(&text, " "), put_not_excluded(&w);
+    else if (excludes && w.unnamed) nh_text_add(&text, " Other kinds are not excluded (--details).");
+    else if (excludes) {
+        nh_text_add(&text, " Not excluded: ones with ");
         nh_absence_words_put_left_out(&w, " or ", true);
-        nh_text_add(&text, ", and others (--details).");
+        nh_text_add(&text, ", others (--details).");
     }
     const char *words = nh_absence_words_plain(r->arena, nh_text_string(&text));
     nh_text_clear(&text);
@@ -363,8 +375,7 @@ const char *nh_absence_words_short(const nh_analysis *r, size_t lines)
     if (rest && rest->at_most > a->known && !a->everything) rest = NULL; /* others may exist near it */
     if (!a->contradiction && a->verdict == NH_ABSENCE_OPEN && rest) return rest_words(r, rest);
     if (!a->contradiction && a->verdict == NH_ABSENCE_OPEN && !a->everything) return NULL;
-    const char *words = short_words(r, true, true);
-    if (lines_of(words) > lines) words = short_words(r, false, true);
-    if (lines_of(words) > lines) words = short_words(r, false, false);
+    const char *words = short_words(r, all_words);
+    for (int i = for_these_values; i <= unnamed_letters && lines_of(words) > lines; i++) words = short_words(r, i);
     return words;
 }

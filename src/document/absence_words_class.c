@@ -50,7 +50,7 @@ void nh_absence_words_put_equations(const nh_absence_writer *w)
 {
     enum { most_named = 8 };
     const nh_closed_shape *s = w->a->shape;
-    if (!w->brief || s->count <= most_named) {
+    if (!w->brief || (!w->unnamed && s->count <= most_named)) {
         nh_text_add(w->out, "the equations of ");
         put_letters(w, false);
     } else {

@@ -9,7 +9,8 @@ typedef struct {
     const nh_analysis *r;
     const nh_absence *a;
     const nh_absence_attempt *best;
-    bool brief; /* for a first screen */
+    bool brief;   /* for a first screen */
+    bool unnamed; /* .. where the letters of the equations take too much room */
     nh_text *out;
 } nh_absence_writer;
 

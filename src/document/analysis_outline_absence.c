@@ -201,10 +201,12 @@ static void kovacic_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact(p, "Singular points", "%s, infinity included", k->regular ? "all regular" : "some irregular");
     if (k->prime) nh_pen_fact(p, "Prime", "%zu", (size_t)k->prime);
-    nh_pen_fact_begin(p, "Poles");
-    nh_pen_say(p, "modulo the prime ");
-    residue_list(p, k->poles, k->pole);
-    nh_pen_close(p, NH_PEN_FACT);
+    if (k->pole && k->poles) {
+        nh_pen_fact_begin(p, "Poles");
+        nh_pen_say(p, "modulo the prime ");
+        residue_list(p, k->poles, k->pole);
+        nh_pen_close(p, NH_PEN_FACT);
+    }
     nh_pen_fact_begin(p, "Exponents");
     nh_pen_say(p, "differences at the poles, then at infinity: ");
     for (size_t i = 0; i <= k->poles; i++) nh_pen_say(p, i ? ", %s" : "%s", k->exponent[i]);
