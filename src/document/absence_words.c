@@ -388,5 +388,5 @@ const char *nh_absence_words_headline(const nh_analysis *r)
 {
     const nh_absence *a = r->absence;
     bool none_else = a && !a->contradiction && a->verdict == NH_ABSENCE_NONE_ELSE && !a->rational && !a->many_valued;
-    return none_else ? " and by a theorem (below)" : "";
+    return none_else ? " and by a theorem" : "";
 }
