@@ -182,7 +182,7 @@ static nh_monodromy *attempt(nh_arena *arena, size_t blocks, const nh_linear_equ
     nh_monodromy_sum sum;
     *hopeless = false;
     bool apart = nh_monodromy_sum_init(&sum, blocks, block, bits);
-    *m = (nh_monodromy){.size = sum.size, .bits = bits, .singular = sum.points};
+    *m = (nh_monodromy){.size = sum.size, .blocks = blocks, .bits = bits, .singular = sum.points};
     nh_monodromy_element *loop = nh_alloc_array(sum.points + 1, sizeof *loop);
     for (size_t i = 0; i < sum.points; i++) loop[i] = nh_monodromy_element_new(&sum);
     if (!apart) {

@@ -9,6 +9,7 @@ typedef struct {
     size_t size, rank;    /* of the direct sum; certified: an orbit of the group has at least this dimension */
     const char *obstacle; /* rank < size: the first, in words; else NULL */
     long bits;
+    size_t blocks;
     size_t singular, steps, words; /* points, Taylor steps, elements of the Lie algebra used */
     /* loops are closed paths in the x-plane without the singular points: regular or irregular, the rank is that of the
      * monodromy group alone */
