@@ -216,6 +216,7 @@ Test(absence_words, liouville)
     make(&x, PLANE, 0);
     x.a.verdict = NH_ABSENCE_LIOUVILLE;
     x.equation[0].dimension = 4;
+    says_briefly(&x, "Not integrable in the sense of Liouville by first integrals of the equations of x, y, x', y' that are meromorphic near the complex motions x = 0 of energy 1/7 (theorem; a block with the Galois group SL(2)). Not excluded: a further integral alone, ones with other singularities there, smooth ones, ones with t.");
     says(&x, "Not integrable in the sense of Liouville: the equations of x, y, x', y' do not have as many independent first integrals in involution as degrees of freedom, all of them meromorphic near the complex motions x = 0 of energy 1/7 (theorem; a block of their normal variational equation has the Galois group SL(2); proved modulo 1073742391; so too for all values of the parameters outside countably many hypersurfaces). "
              "Not excluded: a further integral alone, integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, and integrals that contain t.");
     end(&x);
