@@ -11,6 +11,9 @@ static const char irrational[] = "irrational numbers remain", roots_remain[] = "
                   transcendental[] = "functions that are not rational remain on the plane",
                   pole[] = "the plane lies in a pole of the equations";
 
+/* Engines take polynomials of degree 60; those that are longer only cost time.  A turn has degree 2 in tan(x/2). */
+enum { most_length = 80, most_turns = 32 };
+
 typedef struct {
     const nh_curve_place *place;
     size_t count;
@@ -109,12 +112,11 @@ static void sum(evaluation *v, size_t k)
  * poles or branch points. */
 static nh_curve_state power(const evaluation *v, size_t base, nh_ex exponent, nh_curve_element *out, const char **why)
 {
-    enum { most = 100000 };
     nh_dag *dag = v->place->dag;
     const nh_curve_element *b = &v->value[base];
     bool fine = v->state[base] == NH_CURVE_FINE, numeric = nh_kind_of(dag, exponent) == NH_NUMBER;
     nh_num x = numeric ? nh_number_of(dag, exponent) : nh_num_int(0);
-    numeric = numeric && nh_num_short(x) && x.p < most && x.p > -most;
+    numeric = numeric && nh_num_short(x) && x.p < most_length && x.p > -most_length;
     bool whole = numeric && x.q == 1 && x.p > 0;
     *why = fine ? pole : v->why[base];
     if (!whole && (!fine || nh_curve_field_is_zero(b))) return NH_CURVE_SINGULAR;
@@ -202,7 +204,6 @@ static nh_ex on_plane(const nh_curve_place *place, nh_ex e)
 /* Sine and cosine of k x + c pi into elements.  False: the argument is no such sum. */
 static bool sine_of(const evaluation *v, nh_ex argument, nh_curve_element *sine, nh_curve_element *cosine)
 {
-    enum { most_turns = 64 };
     const nh_curve_place *place = v->place;
     nh_dag *dag = place->dag;
     nh_ex rest = on_plane(place, argument), part, first = nh_int(dag, 0), second = nh_int(dag, 1);
@@ -296,6 +297,28 @@ static void call(evaluation *v, size_t k)
              transcendental);
 }
 
+/* What is too long has no value. */
+static void shorten(evaluation *v, size_t k)
+{
+    const nh_curve_element *a = &v->value[k];
+    bool long_one = fmpz_poly_length(a->even) > most_length || fmpz_poly_length(a->odd) > most_length ||
+                    fmpz_poly_length(a->den) > most_length;
+    if (v->state[k] == NH_CURVE_FINE && long_one) note(v, k, NH_CURVE_UNKNOWN, "the degree on the plane is too high");
+}
+
+static void value_of(evaluation *v, size_t k)
+{
+    nh_dag *dag = v->place->dag;
+    switch (nh_kind_of(dag, v->node[k])) {
+    case NH_NUMBER: number(v, k, nh_number_of(dag, v->node[k])); break;
+    case NH_SYMBOL: symbol(v, k); break;
+    case NH_SUM: sum(v, k); break;
+    case NH_PRODUCT: product(v, k); break;
+    case NH_FUNCTION: call(v, k); break;
+    }
+    shorten(v, k);
+}
+
 void nh_curve_value(const nh_curve_place *place, size_t n, const nh_ex *e, nh_curve_element *value,
                     nh_curve_state *state, const char **why)
 {
@@ -304,13 +327,7 @@ void nh_curve_value(const nh_curve_place *place, size_t n, const nh_ex *e, nh_cu
     evaluation v = {.place = place, .count = count, .node = node, .value = nh_curve_field_elements(count)};
     v.state = nh_alloc_array(count + 1, sizeof *v.state);
     v.why = nh_alloc_array(count + 1, sizeof *v.why);
-    for (size_t k = 0; k < count; k++) switch (nh_kind_of(place->dag, node[k])) {
-        case NH_NUMBER: number(&v, k, nh_number_of(place->dag, node[k])); break;
-        case NH_SYMBOL: symbol(&v, k); break;
-        case NH_SUM: sum(&v, k); break;
-        case NH_PRODUCT: product(&v, k); break;
-        case NH_FUNCTION: call(&v, k); break;
-        }
+    for (size_t k = 0; k < count; k++) value_of(&v, k);
     for (size_t i = 0; i < n; i++) {
         size_t k = index_of(&v, e[i]);
         state[i] = v.state[k];

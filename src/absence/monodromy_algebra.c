@@ -12,11 +12,12 @@
 
 enum {
     most_pairs = 40,  /* words of two letters */
+    most_powers = 24, /* words of a power and a letter */
     most_longer = 24, /* words of three to six letters */
     shortest = 3,
     longer_lengths = 4,
     small_part = 4, /* what is less than 2^(-bits/4) of the largest, may be 0 */
-    most_letters = 8
+    most_letters = 12
 };
 
 /* The elements found, as far as they concern some of the blocks: the quotient of the sum by the others. */
@@ -191,6 +192,27 @@ static void span_take(span *s, const acb_mat_struct *element)
 
 /* ---- words in the loops ---- */
 
+/* Two letters: number of `shown` among all pairs, in the order of the first. */
+static size_t spell_pair(size_t points, size_t number, size_t shown, size_t *letter)
+{
+    size_t left = number * (points * (points - 1) / 2) / shown, first = 0;
+    for (; left >= points - 1 - first; first++) left -= points - 1 - first;
+    letter[0] = first;
+    letter[1] = first + 1 + left;
+    return 2;
+}
+
+/* A power and another letter: what has only eigenvalues of absolute value 1, moves far when it is repeated. */
+static size_t spell_power(size_t points, size_t number, size_t *letter)
+{
+    static const size_t power[] = {5, 2, 8, 3};
+    size_t pairs = points * (points - 1), first = number % pairs / (points - 1), second = number % pairs % (points - 1);
+    size_t times = power[(number + number / pairs) % (sizeof power / sizeof *power)];
+    for (size_t k = 0; k < times; k++) letter[k] = first;
+    letter[times] = second + (second >= first);
+    return times + 1;
+}
+
 /* The letters of a word; 0: there are no more. */
 static size_t spell(size_t points, size_t number, size_t *letter)
 {
@@ -198,17 +220,14 @@ static size_t spell(size_t points, size_t number, size_t *letter)
         letter[0] = number;
         return 1;
     }
+    if (points < 2) return 0;
     number -= points;
     size_t pairs = points * (points - 1) / 2, shown = pairs < most_pairs ? pairs : most_pairs;
-    if (number < shown) {
-        size_t left = number * pairs / shown, first = 0;
-        for (; left >= points - 1 - first; first++) left -= points - 1 - first;
-        letter[0] = first;
-        letter[1] = first + 1 + left;
-        return 2;
-    }
+    if (number < shown) return spell_pair(points, number, shown, letter);
     number -= shown;
-    if (points < 2 || number >= most_longer) return 0;
+    if (number < most_powers) return spell_power(points, number, letter);
+    number -= most_powers;
+    if (number >= most_longer) return 0;
     size_t length = shortest + number % longer_lengths;
     uint64_t seed = number + 1;
     for (size_t k = 0; k < length; k++) {
@@ -330,7 +349,7 @@ static void prove_parts(const span *all, size_t words, const found *found_of, nh
 static void prove_with(span *all, nh_monodromy_proof *proof)
 {
     const nh_monodromy_sum *sum = all->sum;
-    size_t words = 0, most = sum->points + most_pairs + most_longer, letter[most_letters], letters;
+    size_t words = 0, most = sum->points + most_pairs + most_powers + most_longer, letter[most_letters], letters;
     found *found_of = nh_alloc_array(most + 1, sizeof *found_of);
     for (; all->rank < all->size && (letters = spell(sum->points, words, letter)); words++) {
         found *f = found_of + words;
