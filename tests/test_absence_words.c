@@ -216,6 +216,7 @@ Test(absence_words, liouville)
     make(&x, PLANE, 0);
     x.a.verdict = NH_ABSENCE_LIOUVILLE;
     x.equation[0].dimension = 4;
+    says_briefly(&x, "Not integrable in the sense of Liouville by first integrals of the equations of x, y, x', y' that are meromorphic near the complex motions x = 0 of energy 1/7 (theorem; a block with the Galois group SL(2)). Not excluded: a further integral alone, ones with other singularities there, smooth ones, ones with t.");
     says(&x, "Not integrable in the sense of Liouville: the equations of x, y, x', y' do not have as many independent first integrals in involution as degrees of freedom, all of them meromorphic near the complex motions x = 0 of energy 1/7 (theorem; a block of their normal variational equation has the Galois group SL(2); proved modulo 1073742391; so too for all values of the parameters outside countably many hypersurfaces). "
              "Not excluded: a further integral alone, integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, and integrals that contain t.");
     end(&x);
@@ -471,11 +472,14 @@ Test(absence_words, documents)
     answer x;
     make(&x, SPRING, 0);
     x.a.resonances = 1, x.a.resonance = x.rests, x.a.darboux = &x.darboux;
+    x.darboux.degree = -1, x.darboux.points = 1;
     char *plain = document(&x, NH_PEN_TEXT), *page = document(&x, NH_PEN_PAGE), *tex = document(&x, NH_PEN_LATEX);
     has(plain, "Other integrals\n");
     has(plain, "No other integral: every first integral of the equations of x, y, x', y'");
     has(plain, "Normal form: u_xx = r*u, r = (3*x^2 - x + 7)/(x^4 - 2)");
     has(plain, "Only what costs little was tried");
+    has(plain, "Degree: -1\n");
+    has(plain, "Straight motions: 1 line found, ");
     has(page, "<section id=\"absence\">");
     has(page, "href=\"#absence\"");
     has(page, "Why the group is SL(2)");

@@ -137,10 +137,13 @@ static void put_at_most(const nh_absence_writer *w)
 
 static void put_liouville(const nh_absence_writer *w)
 {
-    nh_text_add(w->out, "Not integrable in the sense of Liouville: ");
+    nh_text_addf(w->out, "Not integrable in the sense of Liouville%s", w->brief ? " by first integrals of " : ": ");
     nh_absence_words_put_equations(w);
-    nh_text_add(w->out, " do not have as many independent first integrals in involution as degrees of freedom, all of "
-                        "them ");
+    if (w->brief) nh_text_add(w->out, " that are ");
+    else
+        nh_text_add(w->out,
+                    " do not have as many independent first integrals in involution as degrees of freedom, all of "
+                    "them ");
     nh_absence_words_put_class(w);
     put_evidence(w);
     nh_text_add(w->out, ".");

@@ -96,7 +96,9 @@ static void put_motions(const nh_absence_writer *w)
         nh_text_addf(w->out, "the complex motions %s %s %s", nh_absence_words_formula(w, e->plane->words),
                      knows_energy(w) ? "of energy" : "at the level", level);
         nh_free(level);
-    } else if (nh_absence_parts_reason_of(w->a) == NH_ABSENCE_BY_DARBOUX)
+    } else if (nh_absence_parts_reason_of(w->a) == NH_ABSENCE_BY_DARBOUX && w->unnamed)
+        nh_text_add(w->out, "the complex motions on a straight line");
+    else if (nh_absence_parts_reason_of(w->a) == NH_ABSENCE_BY_DARBOUX)
         nh_text_addf(w->out, "the complex motions on the line along %s", w->a->darboux->refutation.point);
     else nh_text_add(w->out, "some complex motions");
 }
@@ -107,8 +109,9 @@ static void put_roots(const nh_absence_writer *w)
     size_t n = nh_absence_parts_roots(w->r->arena, w->a->shape, &root);
     for (size_t i = 0; i < n; i++) root[i] = nh_absence_words_formula(w, root[i]);
     if (!n) return;
-    nh_text_add(w->out, w->a->rational ? " and " : "in these and ");
-    put_list(w, n, root, " and ");
+    nh_text_add(w->out, w->a->rational ? " and " : w->unnamed ? "in coordinates, velocities and " : "in these and ");
+    if (w->unnamed) nh_text_addf(w->out, n == 1 ? "a root" : "%zu roots", n);
+    else put_list(w, n, root, " and ");
     if (!w->a->rational) nh_text_addf(w->out, ", where %s not 0, ", n == 1 ? "that is" : "those are");
 }
 
@@ -129,7 +132,7 @@ void nh_absence_words_put_class(const nh_absence_writer *w)
     if (w->a->rational) {
         nh_text_add(w->out, "rational in ");
         if (nh_absence_parts_angles(w->a->shape)) put_letters(w, true);
-        else nh_text_add(w->out, "these");
+        else nh_text_add(w->out, w->unnamed ? "coordinates and velocities" : "these");
         put_roots(w);
         return;
     }

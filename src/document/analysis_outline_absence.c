@@ -165,6 +165,8 @@ static void motions(nh_pen *p, const nh_analysis *r)
     nh_pen_table_end(p);
 }
 
+static const char *plural(size_t n) { return n == 1 ? "" : "s"; }
+
 /* ---- certificates ---- */
 
 static void equation_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *t)
@@ -279,14 +281,14 @@ static void certificate(nh_pen *p, const nh_analysis *r)
 
 /* ---- potentials and states of rest ---- */
 
-static void darboux(nh_pen *p, const nh_darboux *d)
+static void darboux(nh_pen *p, nh_arena *arena, const nh_darboux *d)
 {
     if (!d || !d->applies) return;
     nh_pen_heading(p, "The homogeneous potential");
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
-    nh_pen_fact(p, "Degree", "%ld", d->degree);
-    nh_pen_fact(p, "Straight motions", "%zu lines found, %zu with eigenvalues that were not decided", d->points,
-                d->undecided);
+    nh_pen_fact(p, "Degree", "%s", nh_arena_printf(arena, "%ld", d->degree)); /* it may be negative */
+    nh_pen_fact(p, "Straight motions", "%zu line%s found, %zu with eigenvalues that were not decided", d->points,
+                plural(d->points), d->undecided);
     if (d->refuted) {
         nh_pen_fact_begin(p, "Eigenvalue");
         nh_pen_say(p, "<%s> at %s, which integrable potentials of this degree do not have", d->refutation.eigenvalue,
@@ -369,6 +371,6 @@ void nh_analysis_write_absence(nh_pen *p, const nh_analysis *r)
     if (!a->contradiction) remarks(p, r);
     motions(p, r);
     certificate(p, r);
-    darboux(p, a->darboux);
+    darboux(p, r->arena, a->darboux);
     rest(p, r);
 }
