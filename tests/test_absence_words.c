@@ -57,10 +57,11 @@ static void make(answer *x, const char *text, size_t left)
         x->attempt[i] = (nh_absence_attempt){.equation = &x->equation[i], .p = "(x^2 - x)/(2/7 - x^2 + 2/3*x^3)", .q = "-(1 + 2*x)/(2/7 - x^2 + 2/3*x^3)"};
     }
     static slong lowest[3] = {-1, 0, 2}, degrees[2] = {0, 3};
-    static ulong pole[3] = {5, 11, 1073742390}, root[3] = {2, 3, 4};
+    static ulong pole[3] = {5, 11, 1073742390}, root[4] = {2, 3, 4, 9};
     static bool twice[3] = {true, true, true};
     static const char *exponent[4] = {"1/2", "1/2", "1/2", "5/3"}, *trace[4] = {"2.5", "-1.25", "1.5", "3"};
-    x->kovacic = (nh_kovacic){.group = NH_GROUP_SL2, .regular = true, .r_num = "3*x^2-x+7", .r_den = "x^4 - 2", .prime = 1073742391, .poles = 3, .pole = pole, .double_pole = twice, .root = root, .exponent = exponent, .degrees = 2, .degree_of_p = degrees, .sign_vectors = 8,
+    static const char *num[3] = {"7", "-1", "3"}, *den[5] = {"-2", "0", "0", "0", "1"};
+    x->kovacic = (nh_kovacic){.num_length = 3, .den_length = 5, .num = num, .den = den, .group = NH_GROUP_SL2, .regular = true, .r_num = "3*x^2-x+7", .r_den = "x^4 - 2", .prime = 1073742391, .poles = 3, .pole = pole, .double_pole = twice, .root = root, .exponent = exponent, .degrees = 2, .degree_of_p = degrees, .sign_vectors = 8,
                               .invariant = {{.m = 4, .possible = true, .lowest = lowest, .degree = 2}, {.m = 6}, {.m = 8, .possible = true, .lowest = lowest, .degree = 5}, {.m = 12}}};
     x->monodromy = (nh_monodromy){.size = 4, .rank = 4, .bits = 512, .singular = 2, .steps = 300, .words = 5, .trace = trace};
     x->residues = (nh_residues){.verdict = NH_RESIDUE_MEROMORPHIC, .factor = "x^2 - 2", .residue = "3*x"};
@@ -118,7 +119,7 @@ Test(absence_words, none_else)
     says(&x, "No other integral: every first integral of the equations of x, y, x', y' that is meromorphic near the complex motions x = 0 of energy 1/7 is a function of those found (theorem; the Galois group of their normal variational equation is SL(2); proved modulo 1073742391; so too for all values of the parameters outside countably many hypersurfaces). "
              "Also excluded: finitely many-valued ones. "
              "Not excluded: integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, and integrals that contain t.");
-    says_briefly(&x, "No other integral: every first integral of the equations of x, y, x', y' that is meromorphic near the complex motions x = 0 of energy 1/7 is a function of the one above (theorem; Galois group SL(2)). Not excluded: ones with other singularities there, smooth ones, ones that contain t.");
+    says_briefly(&x, "No other integral: every first integral of the equations of x, y, x', y' that is meromorphic near the complex motions x = 0 of energy 1/7 is a function of the one above (theorem; Galois group SL(2)). Not excluded: ones with other singularities there, smooth ones, ones with t.");
     x.a.generic = false;
     cr_expect_null(strstr(nh_absence_words_sentence(x.r), "hypersurfaces"));
     x.a.verdict = NH_ABSENCE_DEPENDENT;
@@ -136,7 +137,7 @@ Test(absence_words, rational_class)
     x.a.rational = true;
     says(&x, "No other integral: every first integral of the equations of x, y, x', y' that is rational in these is a function of those found (theorem; the Galois group of their normal variational equation is SL(2); proved modulo 1073742391; so too for all values of the parameters outside countably many hypersurfaces). "
              "Also excluded: algebraic ones. Not excluded: integrals that are not rational, and integrals that contain t.");
-    says_briefly(&x, "No other integral: every first integral of the equations of x, y, x', y' that is rational in these is a function of the one above (theorem; Galois group SL(2); so too for all parameters outside countably many hypersurfaces). Not excluded: ones that are not rational, ones that contain t.");
+    says_briefly(&x, "No other integral: every first integral of the equations of x, y, x', y' that is rational in these is a function of the one above (theorem; Galois group SL(2); so too for all parameters outside countably many hypersurfaces). Not excluded: ones that are not rational, ones with t.");
     cr_expect_null(strstr(nh_absence_words_sentence(x.r), "meromorphic"));
     end(&x);
 }
@@ -168,7 +169,12 @@ Test(absence_words, angles_and_letters_left_out)
     says(&x, "No other integral: every first integral of the equations of s, theta, s', theta', z' that is meromorphic near the complex motions theta = pi of energy 1/7 is a function of Phi1 (theorem; the Galois group of their normal variational equation is SL(2); proved modulo 1073742391). "
              "Also excluded: finitely many-valued ones, and ones that are not periodic in the angles. "
              "Not excluded: integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, and integrals that contain z or t.");
-    says_briefly(&x, "No other integral: every first integral of the equations of s, theta, s', theta', z' that is meromorphic near the complex motions theta = pi of energy 1/7 is a function of quantity 1 (theorem; Galois group SL(2)). Not excluded: ones with other singularities there, smooth ones, ones that contain z or t.");
+    says_briefly(&x, "No other integral: every first integral of the equations of s, theta, s', theta', z' that is meromorphic near the complex motions theta = pi of energy 1/7 is a function of quantity 1 (theorem; Galois group SL(2)). Not excluded: ones with other singularities there, smooth ones, ones with z or t.");
+    /* where names are long the letters left out are told at least */
+    x.plane[0].words = "a_long_name = pi/2, b_long_name = 0";
+    x.a.many_valued = 2;
+    says_briefly(&x, "No other integral: every first integral of the equations of motion without z that is meromorphic near the complex motions a_long_name = pi/2, b_long_name = 0 of energy 1/7 is a function of quantity 1 (theorem; Galois group SL(2)). 2 of those above are many-valued there. Other kinds are not excluded (--details).");
+    x.plane[0].words = "theta = pi";
     /* the same by residues, d = 1 */
     x.attempt[0].kovacic = NULL;
     x.attempt[0].residues = &x.residues;
@@ -178,6 +184,7 @@ Test(absence_words, angles_and_letters_left_out)
              "Also excluded: finitely many-valued ones. "
              "Not excluded: integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, ones that are not periodic in the angles, and integrals that contain z or t. "
              "1 of those found is many-valued near these motions, or contains t: it is not of this class.");
+    cr_expect(strstr(nh_absence_words_short(x.r, 4), " is a function of quantity 1 (theorem; a residue is not rational). 1 of those above is many-valued there. "), "%s", nh_absence_words_short(x.r, 4));
     x.residues.verdict = NH_RESIDUE_RATIONAL;
     x.a.rational = true;
     x.a.many_valued = 0;
@@ -199,7 +206,7 @@ Test(absence_words, at_most)
     says(&x, "At most 3 independent first integrals of the equations of x, y, x', y' are meromorphic near the complex motions x = 0 of energy 1/7 (theorem; the monodromy of their normal variational equation moves a general vector in 4 of 5 dimensions, taken on its 2 blocks together; proved in balls of 512 bits); 1 is known. "
              "So too where finitely many-valued ones are counted. "
              "Not excluded: integrals with other singularities on these complex motions (logarithms, irrational powers; real-analytic ones may have them), smooth ones, and integrals that contain t.");
-    says_briefly(&x, "At most 3 independent first integrals of the equations of x, y, x', y' are meromorphic near the complex motions x = 0 of energy 1/7 (theorem; monodromy, in balls); 1 is known. Not excluded: ones with other singularities there, smooth ones, ones that contain t.");
+    says_briefly(&x, "At most 3 independent first integrals of the equations of x, y, x', y' are meromorphic near the complex motions x = 0 of energy 1/7 (theorem; monodromy, in balls); 1 is known. Not excluded: ones with other singularities there, smooth ones, ones with t.");
     end(&x);
 }
 
@@ -290,15 +297,21 @@ Test(absence_words, states_of_rest)
     x.a.resonances = 1;
     x.a.resonance = x.rests;
     x.rest.divergence = true;
+    x.a.known = 1;
     says(&x, "Not decided whether there is any other integral. Nothing is excluded by this, and nothing is found. "
-             "Near x = 0, x' = 0, where the equations of s, theta, s', theta', z' rest, at most 1 independent first integral of theirs is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101). No measure with a positive density of class C^1 is preserved near x = 0, x' = 0.");
-    says_briefly(&x, "Near x = 0, x' = 0, where the equations of s, theta, s', theta', z' rest, at most 1 independent first integral of theirs is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101).");
+             "Near the state of rest x = 0, x' = 0 at most 1 independent first integral of the equations of s, theta, s', theta', z' is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101). No measure with a positive density of class C^1 is preserved near the state of rest x = 0, x' = 0.");
+    says_briefly(&x, "Near the state of rest x = 0, x' = 0 at most 1 independent first integral of the equations of s, theta, s', theta', z' is real-analytic, or a quotient of real-analytic functions (theorem; the eigenvalues there span at least 4 dimensions over the rational numbers; proved modulo 101).");
+    x.rest.at_most = 2; /* more than are known: of use to those who asked */
+    says_briefly(&x, NULL);
+    x.a.everything = true;
+    cr_expect_not_null(nh_absence_words_short(x.r, 4));
+    x.a.everything = false;
     /* no prime was needed */
     x.rest = (nh_resonance){.point = "x = 0, x' = 0", .polynomial = "x^5", .letters = 5, .span = 1, .diagonalizable = false, .at_most = 3};
-    cr_expect(strstr(nh_absence_words_sentence(x.r), "at most 3 independent first integrals of theirs are real-analytic, or quotients of real-analytic functions (theorem; the eigenvalues there span at least 1 dimension over the rational numbers, and the linear equations cannot be diagonalized)."),
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "at most 3 independent first integrals of the equations of s, theta, s', theta', z' are real-analytic, or quotients of real-analytic functions (theorem; the eigenvalues there span at least 1 dimension over the rational numbers, and the linear equations cannot be diagonalized)."),
               "%s", nh_absence_words_sentence(x.r));
     x.rest.at_most = 0;
-    cr_expect(strstr(nh_absence_words_sentence(x.r), "rest, of their first integrals only constants are real-analytic, or quotients"), "%s", nh_absence_words_sentence(x.r));
+    cr_expect(strstr(nh_absence_words_sentence(x.r), "Near the state of rest x = 0, x' = 0 only constants among the first integrals of the equations of s, theta, s', theta', z' are real-analytic, or quotients"), "%s", nh_absence_words_sentence(x.r));
     x.rest.at_most = 4; /* as everywhere */
     says(&x, "Not decided whether there is any other integral. Nothing is excluded by this, and nothing is found.");
     says_briefly(&x, NULL);

@@ -249,27 +249,67 @@ Test(darboux, where_it_applies)
     }
 }
 
-/* Three equal masses on a line, the middle one at rest (Euler); with other masses there is no such line. */
+/* Three bodies at the corners of an equilateral triangle (Lagrange), for almost all masses: the eigenvalues are -1/2 +- 3/2 sqrt(1 - 3 sigma),
+ * sigma = (a b + b c + c a)/(a + b + c)^2.  Equal masses stand on a line as well, the middle one at rest (Euler), in six ways. */
 Test(darboux, three_bodies)
 {
     static const char *const masses[] = {"a", "b", "c"};
-    for (int equal = 0; equal < 2; equal++) {
+    static const struct { double mass[3]; size_t points; const char *eigenvalue; } list[] = {
+        {{1.3, 0.8, 1.9}, 1, "3*sqrt(91)/80 - 1/2"}, /* sigma = 503/1600 */
+        {{1, 1, 1}, 7, "-1/2"}, {{1, 2, 3}, 1, "sqrt(3)/4 - 1/2"},
+    };
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
         nh_setting setting[3];
-        for (size_t i = 0; i < 3; i++) setting[i] = (nh_setting){.name = masses[i], .value = 1};
-        mechanics x = mechanics_of_file("systems/three_bodies.yaml", NH_CHART_AUTO, equal ? 3 : 0, setting);
+        for (size_t i = 0; i < 3; i++) setting[i] = (nh_setting){.name = masses[i], .value = list[k].mass[i]};
+        mechanics x = mechanics_of_file("systems/three_bodies.yaml", NH_CHART_AUTO, 3, setting);
         nh_closed_shape shape = {.model = x.model};
         nh_arena *arena = nh_arena_create();
         nh_darboux *out = nh_darboux_of(arena, &shape);
-        cr_expect(!out->generic, "other masses have no such line");
-        cr_expect(out->applies && out->degree == -1 && out->roots && out->coordinates == 6, "%s", out->obstacle);
-        cr_expect_eq(out->points, equal ? 6U : 0U, "%zu lines", out->points);
-        cr_expect_eq(out->refuted, equal, "%s", out->obstacle);
-        /* V'' on the mode (1, -2, 1) along the line: -6, V'(c) = 5/4 c. */
-        if (equal) cr_expect_str_eq(out->refutation.point, "c = (1, 0, -1, 0, 0, 0)");
-        if (equal) cr_expect_str_eq(out->refutation.eigenvalue, "-24/5");
+        cr_assert(out->applies && out->refuted, "%s", out->obstacle);
+        cr_expect(out->degree == -1 && out->roots && out->generic && out->coordinates == 6 && !out->undecided);
+        cr_expect_eq(out->points, list[k].points, "%zu lines", out->points);
+        cr_expect_str_eq(out->refutation.point, "c, an equilateral triangle about the centre of mass");
+        cr_expect_str_eq(out->refutation.eigenvalue, list[k].eigenvalue);
         nh_arena_free(arena);
         mechanics_clear(&x);
     }
+}
+
+/* The same in space, with springs of degree 4, which are no three bodies where the masses along the axes differ: then the triangle is none, and what
+ * is left are lines. */
+Test(darboux, three_bodies_in_space)
+{
+    static const struct { const char *m; bool triangle; } list[] = {{"2", true}, {"3", false}};
+    for (size_t k = 0; k < 2; k++) {
+        nh_arena *arena = nh_arena_create();
+        nh_text text;
+        nh_text_init(&text);
+        nh_text_add(&text, "name: bodies\ncoordinates:\n");
+        for (int i = 0; i < 9; i++) nh_text_addf(&text, "  - {name: %c%d, type: length}\n", "xyz"[i % 3], 1 + i / 3);
+        nh_text_addf(&text, "lagrangian: (x1'^2 + y1'^2 + z1'^2)/2 + (2*x2'^2 + %s*y2'^2 + 2*z2'^2)/2 + (x3'^2 + y3'^2 + z3'^2)*5/2", list[k].m);
+        for (int i = 1; i <= 3; i++)
+            nh_text_addf(&text, " + 3*%d/sqrt((x%d - x%d)^2 + (y%d - y%d)^2 + (z%d - z%d)^2)", i == 1 ? 2 : i == 2 ? 10 : 5, i, i % 3 + 1, i, i % 3 + 1, i, i % 3 + 1);
+        mechanics x = mechanics_of_text(nh_text_string(&text), NH_CHART_AUTO);
+        nh_closed_shape shape = {.model = x.model};
+        nh_darboux *out = nh_darboux_of(arena, &shape);
+        cr_expect_eq(out->refuted, list[k].triangle, "%s", out->obstacle);
+        cr_expect_eq(out->points, list[k].triangle, "%zu lines", out->points);
+        if (out->refuted) cr_expect_str_eq(out->refutation.eigenvalue, "3*sqrt(13)/16 - 1/2"); /* sigma = 17/64 */
+        mechanics_clear(&x);
+        nh_text_clear(&text);
+        nh_arena_free(arena);
+    }
+}
+
+/* On (1, 1) the eigenvalue beside 2 is (4 + sqrt(2))/(2 + sqrt(2)) = 3 - sqrt(2), not its conjugate. */
+Test(darboux, roots_on_a_line)
+{
+    nh_arena *arena = nh_arena_create();
+    nh_darboux *out = darboux_of(arena, false, "(x'^2 + y'^2)/2", "x^3 + y^3 + sqrt(x^2 + y^2)^3/2", "");
+    cr_expect(out->refuted && out->points >= 3 && !out->undecided, "%s", out->obstacle);
+    cr_expect_str_eq(out->refutation.point, "c = (1, 1)");
+    cr_expect_str_eq(out->refutation.eigenvalue, "lambda, lambda^2 - 6*lambda + 7 = 0");
+    nh_arena_free(arena);
 }
 
 /* For which values of the parameters, beside those given?  A line that is one for all values; a degree that is. */
@@ -294,4 +334,31 @@ Test(darboux, parameters)
         cr_expect_eq(out->generic, list[i].generic, "%s at %s", list[i].V, out->refutation.point);
         nh_arena_free(arena);
     }
+}
+
+/* Integrable by construction, in turned coordinates (a x - b y, b x + a y)/c: separable ones of each degree, and the known families.  None is refuted;
+ * of those with a term too much, each is. */
+Test(darboux, turned)
+{
+    static const long turn[][3] = {{1, 0, 1}, {3, 4, 5}, {5, -12, 13}, {20, 21, 29}};
+    static const struct { const char *form; bool refuted; } list[] = {
+        {"7*X^3 - 2*Y^3", false}, {"3*X^4 + 5*Y^4", false}, {"X^5 + 11*Y^5", false}, {"X^6 - 4*Y^6", false}, {"2*X^7 + Y^7", false}, {"2/X + 3/Y", false}, {"2/X^3 - 3/Y^3", false},
+        {"X^2*Y + 2*Y^3", false}, {"X^2*Y + Y^3/3", false}, {"X^2*Y + 16/3*Y^3", false}, {"X^4 + 6*X^2*Y^2 + Y^4", false}, {"X^4 + 6*X^2*Y^2 + 8*Y^4", false},
+        {"X^4 + 12*X^2*Y^2 + 16*Y^4", false}, {"(X^2 + Y^2)^3", false}, {"3*X^4 + 5*Y^4 + X^2*Y^2", true}, {"X^5 + 11*Y^5 + X^3*Y^2", true},
+        {"X^6 - 4*Y^6 + X^2*Y^4", true}, {"X^2*Y + 3*Y^3", true},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        for (size_t k = 0; k < sizeof turn / sizeof *turn; k++) {
+            nh_arena *arena = nh_arena_create();
+            nh_text V;
+            nh_text_init(&V);
+            for (const char *c = list[i].form; *c; c++)
+                if (*c == 'X') nh_text_addf(&V, "((%ld*x - (%ld)*y)/%ld)", turn[k][0], turn[k][1], turn[k][2]);
+                else if (*c == 'Y') nh_text_addf(&V, "((%ld*x + %ld*y)/%ld)", turn[k][1], turn[k][0], turn[k][2]);
+                else nh_text_addf(&V, "%c", *c);
+            nh_darboux *out = darboux_of(arena, false, "(x'^2 + y'^2)/2", nh_text_string(&V), "");
+            cr_expect(out->applies && out->refuted == list[i].refuted, "%s, turn %zu: %s %s", list[i].form, k, out->refutation.point, out->refutation.eigenvalue);
+            nh_text_clear(&V);
+            nh_arena_free(arena);
+        }
 }

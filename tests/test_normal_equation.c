@@ -1,4 +1,6 @@
 /* Normal equations along planes: against formulas that are derived by hand. */
+#include <math.h>
+
 #include "absence_cases.h"
 
 #include "sweep.h"
@@ -72,9 +74,10 @@ Test(normal_equation, henon_heiles)
         nh_text_init(&S);
         nh_text_init(&p);
         nh_text_init(&q);
-        nh_text_addf(&text,
-                     "name: hh\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + (%s)*y^2)/2 - x^2*y - (%s)*y^3\n",
-                     of[i].B, of[i].eps);
+        nh_text_addf(
+            &text,
+            "name: hh\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + (%s)*y^2)/2 - x^2*y - (%s)*y^3\n",
+            of[i].B, of[i].eps);
         nh_text_addf(&S, "(2/7 - (%s)*x^2 - 2*(%s)*x^3)", of[i].B, of[i].eps);
         nh_text_addf(&p, "(-2*(%s)*x - 6*(%s)*x^2)/(2*%s)", of[i].B, of[i].eps, nh_text_string(&S));
         nh_text_addf(&q, "(1 + 2*x)/%s", nh_text_string(&S));
@@ -95,7 +98,8 @@ Test(normal_equation, henon_heiles)
 }
 
 /* P = S'/(2 S) + more, Q = k/S, for S as a text; all in x. */
-static void expect_of(const char *system, const char *plane, const char *S, const char *slope, const char *more, const char *k)
+static void expect_of(const char *system, const char *plane, const char *S, const char *slope, const char *more,
+                      const char *k)
 {
     nh_text p, q;
     nh_text_init(&p);
@@ -114,19 +118,22 @@ static void expect_of(const char *system, const char *plane, const char *S, cons
 Test(normal_equation, spring_pendulum)
 {
     /* r = sqrt(x^2 + y^2) is y on the plane, and its derivatives are those of r, not of y */
-    expect_of("name: s\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 3/2*(x^2 + y^2) + 3*sqrt(x^2 + y^2) + 2*y\n", "x = 0, y > 0",
-              "2/7 + 6*x + 4*x - 3*x^2", "10 - 6*x", "0", "3 - 3/x");
-    expect_of("name: s\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 3/2*(x^2 + y^2) + 3*sqrt(x^2 + y^2) + 2*y\n", "x = 0, y < 0",
-              "2/7 - 6*x + 4*x - 3*x^2", "-2 - 6*x", "0", "3 + 3/x");
-    expect_of("name: s\ncoordinates: [r, {name: theta, type: angle}]\nlagrangian: (r'^2 + r^2*theta'^2)/2 - 3/2*r^2 + 3*r + 2*r*cos(theta)\n",
+    expect_of("name: s\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 3/2*(x^2 + y^2) + 3*sqrt(x^2 + y^2) + 2*y\n",
+              "x = 0, y > 0", "2/7 + 6*x + 4*x - 3*x^2", "10 - 6*x", "0", "3 - 3/x");
+    expect_of("name: s\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - 3/2*(x^2 + y^2) + 3*sqrt(x^2 + y^2) + 2*y\n",
+              "x = 0, y < 0", "2/7 - 6*x + 4*x - 3*x^2", "-2 - 6*x", "0", "3 + 3/x");
+    expect_of("name: s\ncoordinates: [r, {name: theta, type: angle}]\nlagrangian: (r'^2 + r^2*theta'^2)/2 - 3/2*r^2 + "
+              "3*r + 2*r*cos(theta)\n",
               "theta = 0", "2/7 + 10*x - 3*x^2", "10 - 6*x", "2/x", "2/x");
-    expect_of("name: s\ncoordinates: [r, {name: theta, type: angle}]\nlagrangian: (r'^2 + r^2*theta'^2)/2 - 3/2*r^2 + 3*r + 2*r*cos(theta)\n",
+    expect_of("name: s\ncoordinates: [r, {name: theta, type: angle}]\nlagrangian: (r'^2 + r^2*theta'^2)/2 - 3/2*r^2 + "
+              "3*r + 2*r*cos(theta)\n",
               "theta = pi", "2/7 + 2*x - 3*x^2", "2 - 6*x", "2/x", "-2/x");
 }
 
 Test(normal_equation, swinging_atwood)
 {
-    expect_of("name: a\nparameters: [{name: M, value: 2.5}]\ncoordinates: [r, th]\nlagrangian: ((1 + M)*r'^2 + r^2*th'^2)/2 + r*(cos(th) - M)\n",
+    expect_of("name: a\nparameters: [{name: M, value: 2.5}]\ncoordinates: [r, th]\nlagrangian: ((1 + M)*r'^2 + "
+              "r^2*th'^2)/2 + r*(cos(th) - M)\n",
               "th = 0", "2*(1/7 - 3/2*x)/(7/2)", "-3/(7/2)", "2/x", "1/x");
 }
 
@@ -143,9 +150,11 @@ Test(normal_equation, constraints)
 {
     /* z' = k y x': (1 + k^2 y^2) x'' + k^2 y y' x' + (1 + 2 y) x = 0 near x = 0; z is left out */
     expect_of("name: n\nparameters: [{name: k, value: 0.5}]\ncoordinates: [x, y, z]\n"
-              "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + y^2)/2 - x^2*y - 2*y^3\nconstraints: [\"z' = k*y*x'\"]\ndependent: [z]\n",
+              "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + y^2)/2 - x^2*y - 2*y^3\nconstraints: [\"z' = "
+              "k*y*x'\"]\ndependent: [z]\n",
               "x = 0", "2/7 - x^2 - 4*x^3", "-2*x - 12*x^2", "x/4/(1 + x^2/4)", "(1 + 2*x)/(1 + x^2/4)");
-    expect_of("name: n\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - (3*x^2 + 5*y^2)/2\nconstraints: [\"z' = y*x'\"]\ndependent: [z]\n",
+    expect_of("name: n\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - (3*x^2 + 5*y^2)/2\nconstraints: "
+              "[\"z' = y*x'\"]\ndependent: [z]\n",
               "x = 0", "2/7 - 5*x^2", "-10*x", "x/(1 + x^2)", "3/(1 + x^2)");
 }
 
@@ -154,9 +163,12 @@ static const char *top(const char *moments, const char *weight, nh_text *text)
 {
     nh_text_init(text);
     nh_text_addf(text,
-                 "name: top\nparameters: [%s]\ncoordinates: [{name: theta, type: angle}, {name: phi, type: angle}, {name: psi, type: angle}]\n"
-                 "definitions:\n  - w1 = psi'*sin(theta)*sin(phi) + theta'*cos(phi)\n  - w2 = psi'*sin(theta)*cos(phi) - theta'*sin(phi)\n"
-                 "  - w3 = psi'*cos(theta) + phi'\nlagrangian: (A*w1^2 + B*w2^2 + C*w3^2)/2 - (%s)\ndomain: {theta: [0.5, 2.5]}\n",
+                 "name: top\nparameters: [%s]\ncoordinates: [{name: theta, type: angle}, {name: phi, type: angle}, "
+                 "{name: psi, type: angle}]\n"
+                 "definitions:\n  - w1 = psi'*sin(theta)*sin(phi) + theta'*cos(phi)\n  - w2 = psi'*sin(theta)*cos(phi) "
+                 "- theta'*sin(phi)\n"
+                 "  - w3 = psi'*cos(theta) + phi'\nlagrangian: (A*w1^2 + B*w2^2 + C*w3^2)/2 - (%s)\ndomain: {theta: "
+                 "[0.5, 2.5]}\n",
                  moments, weight);
     return nh_text_string(text);
 }
@@ -164,8 +176,9 @@ static const char *top(const char *moments, const char *weight, nh_text *text)
 /* The momentum of psi holds one direction more: what is left is the equation of Routh's function. */
 static void expect_top(const char *moments, const char *weight, const char *p, const char *q)
 {
-    const char *momentum = "A*(psi'*sin(theta)*sin(phi) + theta'*cos(phi))*sin(theta)*sin(phi) + B*(psi'*sin(theta)*cos(phi) - "
-                           "theta'*sin(phi))*sin(theta)*cos(phi) + C*(psi'*cos(theta) + phi')*cos(theta)";
+    const char *momentum =
+        "A*(psi'*sin(theta)*sin(phi) + theta'*cos(phi))*sin(theta)*sin(phi) + B*(psi'*sin(theta)*cos(phi) - "
+        "theta'*sin(phi))*sin(theta)*cos(phi) + C*(psi'*cos(theta) + phi')*cos(theta)";
     nh_text text;
     absence_case c = absence_case_text(top(moments, weight, &text));
     cr_expect_eq(c.shape->left, 1);
@@ -184,14 +197,18 @@ static void expect_top(const char *moments, const char *weight, const char *p, c
 
 Test(normal_equation, heavy_top)
 {
-    expect_top("{name: A, value: 3}, {name: B, value: 2}, {name: C, value: 1}", "sin(theta)*sin(phi)",
-               "(2*x^7 - 21*x^6 + 14*x^5 - 147*x^4 + 10*x^3 + 7*x^2 - 2*x - 7)/((x^2 + 1)*(x^2 - 14*x + 1)*(x^4 + 4*x^2 + 1))",
-               "2*(2*x^6 - 49*x^5 - 2*x^4 - 28*x^3 - 2*x^2 - 49*x + 2)/(3*(x^2 + 1)^2*(x^2 - 14*x + 1)*(x^4 + 4*x^2 + 1))");
+    expect_top(
+        "{name: A, value: 3}, {name: B, value: 2}, {name: C, value: 1}", "sin(theta)*sin(phi)",
+        "(2*x^7 - 21*x^6 + 14*x^5 - 147*x^4 + 10*x^3 + 7*x^2 - 2*x - 7)/((x^2 + 1)*(x^2 - 14*x + 1)*(x^4 + 4*x^2 + 1))",
+        "2*(2*x^6 - 49*x^5 - 2*x^4 - 28*x^3 - 2*x^2 - 49*x + 2)/(3*(x^2 + 1)^2*(x^2 - 14*x + 1)*(x^4 + 4*x^2 + 1))");
     expect_top("{name: A, value: 2}, {name: B, value: 2}, {name: C, value: 1}", "sin(theta)*sin(phi)",
-               "(2*x^3 - 21*x^2 + 2*x - 7)/((x^2 + 1)*(x^2 - 14*x + 1))", "(x^2 - 28*x + 1)/((x^2 + 1)^2*(x^2 - 14*x + 1))");
+               "(2*x^3 - 21*x^2 + 2*x - 7)/((x^2 + 1)*(x^2 - 14*x + 1))",
+               "(x^2 - 28*x + 1)/((x^2 + 1)^2*(x^2 - 14*x + 1))");
     expect_top("{name: A, value: 4}, {name: B, value: 3}, {name: C, value: 2}", "sin(theta)*(sin(phi) + cos(phi))",
-               "(48*x^7 - 63*x^6 + 230*x^5 - 343*x^4 - 44*x^3 - 21*x^2 + 54*x - 21)/(2*(x^2 + 1)*(x^2 + 3)*(3*x^2 + 1)*(4*x^2 - 7*x - 3))",
-               "(207*x^6 - 420*x^5 + 7*x^4 - 504*x^3 + 21*x^2 - 420*x - 171)/(6*(x^2 + 1)^2*(x^2 + 3)*(3*x^2 + 1)*(4*x^2 - 7*x - 3))");
+               "(48*x^7 - 63*x^6 + 230*x^5 - 343*x^4 - 44*x^3 - 21*x^2 + 54*x - 21)/(2*(x^2 + 1)*(x^2 + 3)*(3*x^2 + "
+               "1)*(4*x^2 - 7*x - 3))",
+               "(207*x^6 - 420*x^5 + 7*x^4 - 504*x^3 + 21*x^2 - 420*x - 171)/(6*(x^2 + 1)^2*(x^2 + 3)*(3*x^2 + "
+               "1)*(4*x^2 - 7*x - 3))");
 }
 
 /* The two unknowns of a block of size 2 in the other order. */
@@ -206,12 +223,14 @@ Test(normal_equation, suslov)
     /* Kozlov's case: w2'' = cos(h) w2/I2 along h'^2 = 2 (1/7 - cos(h))/I1, so that S = (1 + x^2) (8 x^2 - 6)/42 for x = tan(h/2).  w2 is the
      * second unknown, and odd: the normal form is the same without regard to a factor w. */
     second_order found, expected;
-    absence_case c = absence_case_text("name: s\nparameters: [{name: I1, value: 3}, {name: I2, value: 2}, {name: I3, value: 5}]\n"
-                                       "coordinates: [p, {name: h, type: angle}, {name: s, type: angle}]\n"
-                                       "lagrangian: I1*(h'*cos(s) + p'*sin(h)*sin(s))^2/2 + I2*(-h'*sin(s) + p'*sin(h)*cos(s))^2/2 + I3*(p'*cos(h) + s')^2/2 - cos(h)\n"
-                                       "constraints: [p'*cos(h) + s' = 0]\nvelocities:\n  names: [w1, w2]\n  map:\n    - h' = w1*cos(s) - w2*sin(s)\n"
-                                       "    - p' = (w1*sin(s) + w2*cos(s))/sin(h)\n    - s' = -(w1*sin(s) + w2*cos(s))*cos(h)/sin(h)\n"
-                                       "domain: {h: [0.6, 2.0]}\n");
+    absence_case c = absence_case_text(
+        "name: s\nparameters: [{name: I1, value: 3}, {name: I2, value: 2}, {name: I3, value: 5}]\n"
+        "coordinates: [p, {name: h, type: angle}, {name: s, type: angle}]\n"
+        "lagrangian: I1*(h'*cos(s) + p'*sin(h)*sin(s))^2/2 + I2*(-h'*sin(s) + p'*sin(h)*cos(s))^2/2 + I3*(p'*cos(h) + "
+        "s')^2/2 - cos(h)\n"
+        "constraints: [p'*cos(h) + s' = 0]\nvelocities:\n  names: [w1, w2]\n  map:\n    - h' = w1*cos(s) - w2*sin(s)\n"
+        "    - p' = (w1*sin(s) + w2*cos(s))/sin(h)\n    - s' = -(w1*sin(s) + w2*cos(s))*cos(h)/sin(h)\n"
+        "domain: {h: [0.6, 2.0]}\n");
     nh_normal_equation *e = equation_of(&c, "s = 0, w2 = 0");
     cr_expect_eq(e->dimension, 2);
     cr_expect(e->periodic);
@@ -252,7 +271,8 @@ Test(normal_equation, integrals_hold_directions)
 {
     /* Sawada and Kotera: d(x y + x^3/3 + x y^2 + x' y') = (y + y^2, y') in normal directions, so x'_normal = -(y + y^2)/y' x_normal */
     const char *further[] = {"x*y + x^3/3 + x*y^2 + x'*y'", "2*E^2 + 1", "y*(x*y + x^3/3 + x*y^2 + x'*y')"};
-    absence_case c = absence_case_text("name: sk\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2 - x^2*y - y^3/3\n");
+    absence_case c = absence_case_text(
+        "name: sk\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (x^2 + y^2)/2 - x^2*y - y^3/3\n");
     nh_normal_equation *e = equation_with(&c, "x = 0", 2, further);
     cr_assert_null(e->obstacle);
     cr_expect_eq(e->known, 2);
@@ -269,6 +289,22 @@ Test(normal_equation, integrals_hold_directions)
     absence_case_clear(&c);
 }
 
+Test(normal_equation, multiples_of_the_energy)
+{
+    /* oblique letters, so that the energy has a differential across the plane: d(E (1 + y')) = dE + h dy' there */
+    absence_case c =
+        absence_case_text("name: o\ncoordinates: [x, y]\nlagrangian: ((x' + 2*y')^2 + y'^2)/2 - (x + 2*y)^4\n");
+    const char *further[] = {"E*(1 + y')", "E^2*(1 + 3*y')"};
+    nh_normal_equation *e = equation_with(&c, "y = 0", 2, further);
+    cr_assert_null(e->obstacle, "%s", e->obstacle);
+    cr_expect_eq(e->known, 2);
+    cr_expect_eq(e->unused, 1);
+    cr_assert_eq(e->dimension, 1);
+    expect_entry(&e->block[0], 0, 0, "0"); /* y' is held, so that y does not change */
+    nh_normal_equation_clear(e);
+    absence_case_clear(&c);
+}
+
 Test(normal_equation, many_valued)
 {
     /* near the motions of a pendulum: differentials that are functions on the curve do not make an integral single-valued */
@@ -276,7 +312,9 @@ Test(normal_equation, many_valued)
     static const struct {
         const char *integral;
         bool one_value;
-    } of[] = {{"y'", true}, {"y' + y'^2*th", false}, {"y' + y'^2*cos(th)", true}, {"y' + log(2 + y')", false}, {"exp(y')", true}, {"y' + y'^2*cos(th/2)", false}};
+    } of[] = {
+        {"y'", true},      {"y' + y'^2*th", false},       {"y' + y'^2*cos(th)", true}, {"y' + log(2 + y')", false},
+        {"exp(y')", true}, {"y' + y'^2*cos(th/2)", false}};
     for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
         nh_normal_equation *e = equation_with(&c, "y' = 0", 1, &of[i].integral);
         cr_assert_null(e->obstacle, "%s", e->obstacle);
@@ -292,7 +330,8 @@ Test(normal_equation, two_integrals_at_once)
 {
     /* three oscillators without a relation: each energy but that of the motion has differential 0; momenta of a free direction hold one each */
     const char *further[] = {"y'", "z'", "y'*z'", "x'^2/2 + x^4"};
-    absence_case c = absence_case_text("name: f\ncoordinates: [x, y, z, u]\nlagrangian: (x'^2 + y'^2 + z'^2 + u'^2)/2 - x^4 - x^2*u^2 + 0*y\n");
+    absence_case c = absence_case_text(
+        "name: f\ncoordinates: [x, y, z, u]\nlagrangian: (x'^2 + y'^2 + z'^2 + u'^2)/2 - x^4 - x^2*u^2 + 0*y\n");
     cr_expect_eq(c.shape->left, 2);
     nh_normal_equation *e = equation_with(&c, "u = 0, y' = 0, z' = 0", 3, further);
     cr_assert_null(e->obstacle, "%s", e->obstacle);
@@ -304,10 +343,61 @@ Test(normal_equation, two_integrals_at_once)
     absence_case_clear(&c);
 }
 
+/* The value of an entry at x. */
+static double entry_at(const nh_linear_equation *block, size_t i, size_t j, double x)
+{
+    double num = 0, den = 0;
+    const fmpz_poly_struct *n = block->num + i * block->size + j;
+    for (slong k = fmpz_poly_degree(n); k >= 0; k--) num = num * x + fmpz_get_d(n->coeffs + k);
+    for (slong k = fmpz_poly_degree(block->den); k >= 0; k--) den = den * x + fmpz_get_d(block->den->coeffs + k);
+    return num / den;
+}
+
+/* A magnetic force and a potential that couples x and y are not reversible together: xi = u + w v satisfies
+ * d xi/dz = C xi for both signs of w, if (u, v) satisfies the doubled equation. */
+Test(normal_equation, doubled)
+{
+    absence_case c = absence_case_text(
+        "name: t\ncoordinates: [x, y, z]\n"
+        "lagrangian: (x'^2 + y'^2 + z'^2)/2 + 2*z*(x*y' - y*x') - (3*x^2 + 5*y^2 + z^2)/2 - x^2*z - 7*x*y\n");
+    nh_normal_equation *e = equation_of(&c, "x = 0, y = 0");
+    cr_assert_null(e->obstacle);
+    cr_assert(e->doubled);
+    cr_assert_eq(e->dimension, 4);
+    cr_assert_eq(e->blocks, 1);
+    enum { d = 4, both = 2 * d };
+    cr_assert_eq(e->block[0].size, both);
+    const double z = 0.21, S = 2.0 / 7 - z * z, slope = -z / S; /* w'/w */
+    double u[d] = {0.3, -1.1, 0.7, 0.2}, v[d] = {-0.4, 0.9, 1.3, -0.6};
+    for (int sign = -1; sign <= 1; sign += 2) {
+        double w = sign * sqrt(S), xi[d];
+        const double C[d][d] = {{0, 0, 1 / w, 0},
+                                {0, 0, 0, 1 / w},
+                                {-(3 + 2 * z) / w, 2 - 7 / w, 0, 4 * z / w},
+                                {-2 - 7 / w, -5 / w, -4 * z / w, 0}};
+        for (size_t i = 0; i < d; i++) xi[i] = u[i] + w * v[i];
+        for (size_t i = 0; i < d; i++) {
+            double expected = 0, du = 0, dv = 0;
+            for (size_t j = 0; j < d; j++) expected += C[i][j] * xi[j];
+            for (size_t j = 0; j < both; j++) {
+                double value = j < d ? u[j] : v[j - d];
+                du += entry_at(&e->block[0], i, j, z) * value;
+                dv += entry_at(&e->block[0], d + i, j, z) * value;
+            }
+            cr_expect_float_eq(du + w * dv + slope * w * v[i], expected, 1e-12);
+        }
+    }
+    cr_expect_eq(nh_normal_equation_orbit(e, 8), 4);
+    cr_expect_eq(nh_normal_equation_orbit(e, 3), 2);
+    nh_normal_equation_clear(e);
+    absence_case_clear(&c);
+}
+
 Test(normal_equation, blocks)
 {
     /* the block of size 4 of three degrees of freedom: K couples x and y */
-    absence_case c = absence_case_text("name: t\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + 2*y^2 + z^2)/2 - (x^2 + 2*y^2 + 3*x*y)*z + z^3/3\n");
+    absence_case c = absence_case_text("name: t\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + "
+                                       "2*y^2 + z^2)/2 - (x^2 + 2*y^2 + 3*x*y)*z + z^3/3\n");
     nh_normal_equation *e = equation_of(&c, "x = 0, y = 0");
     const char *S = "(2/7 - x^2 + 2*x^3/3)";
     cr_assert_eq(e->blocks, 1);
@@ -332,7 +422,8 @@ Test(normal_equation, blocks)
     absence_case_clear(&c);
     /* with a rotation about z: two equal blocks; its momentum has differential 0 on the plane */
     const char *momentum = "x*y' - y*x'";
-    c = absence_case_text("name: t\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + y^2 + z^2)/2 - (x^2 + y^2)*z + z^3/3\n");
+    c = absence_case_text("name: t\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + y^2 + z^2)/2 - "
+                          "(x^2 + y^2)*z + z^3/3\n");
     e = equation_with(&c, "x = 0, y = 0", 1, &momentum);
     cr_assert_null(e->obstacle);
     cr_expect_eq(e->unused, 1);
@@ -347,7 +438,8 @@ Test(normal_equation, blocks)
     nh_normal_equation_clear(e);
     absence_case_clear(&c);
     /* y feels x by a force that is none of a potential, x does not feel y */
-    c = absence_case_text("name: t\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + 3*y^2 + z^2)/2\nforces: {y: x*z}\n");
+    c = absence_case_text("name: t\ncoordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + 3*y^2 + "
+                          "z^2)/2\nforces: {y: x*z}\n");
     e = equation_of(&c, "x = 0, y = 0");
     cr_assert_eq(e->blocks, 2);
     cr_expect(e->triangular);
@@ -370,21 +462,24 @@ static void expect_obstacle(const char *system, const char *plane, const char *o
 
 Test(normal_equation, obstacles)
 {
-    expect_obstacle("name: o\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - sqrt(1 + y^2)*(1 + x^2)\n", "x = 0", "roots remain on the plane");
+    expect_obstacle("name: o\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - sqrt(1 + y^2)*(1 + x^2)\n", "x = 0",
+                    "roots remain on the plane");
     expect_obstacle("name: o\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - exp(y)*(1 + x^2)\n", "x = 0",
                     "functions that are not rational remain on the plane");
-    expect_obstacle("name: o\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y^2 - sqrt(2)*x^2*y\n", "x = 0", "irrational numbers remain");
+    expect_obstacle("name: o\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y^2 - sqrt(2)*x^2*y\n", "x = 0",
+                    "irrational numbers remain");
     expect_obstacle("name: o\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y^2 - sin(y)*x^2*y\n", "x = 0",
                     "functions that are not rational remain on the plane");
-    expect_obstacle("name: o\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y^2 - x^2*y\nforces: {y: -y'}\n", "x = 0",
-                    "the integral does not hold on the plane");
+    expect_obstacle("name: o\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - y^2 - x^2*y\nforces: {y: -y'}\n",
+                    "x = 0", "the integral does not hold on the plane");
 }
 
 Test(normal_equation, numbers)
 {
     /* decimals are the ratios that they are written as, of any length */
-    absence_case c = absence_case_text("name: d\nparameters: [{name: a, value: 0.1234567890123}, {name: b, value: 1e-9}]\ncoordinates: [x, y]\n"
-                                       "lagrangian: (x'^2 + y'^2)/2 - a*b*y^4 - a*b*b*x^2*y^2\n");
+    absence_case c = absence_case_text(
+        "name: d\nparameters: [{name: a, value: 0.1234567890123}, {name: b, value: 1e-9}]\ncoordinates: [x, y]\n"
+        "lagrangian: (x'^2 + y'^2)/2 - a*b*y^4 - a*b*b*x^2*y^2\n");
     nh_normal_equation *e = equation_of(&c, "x = 0");
     expect_entry(&e->block[0], 1, 0, "-2*(1234567890123/10^13/10^9/10^9*x^2)/(2/7 - 2*1234567890123/10^13/10^9*x^4)");
     nh_normal_equation_clear(e);
@@ -393,7 +488,8 @@ Test(normal_equation, numbers)
 
 Test(normal_equation, levels)
 {
-    absence_case c = absence_case_text("name: p\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (y^2 - 2/7*y + 1/49 + 1/7)*(1 + x^2)\n");
+    absence_case c = absence_case_text(
+        "name: p\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - (y^2 - 2/7*y + 1/49 + 1/7)*(1 + x^2)\n");
     nh_ex integral = c.of.model->E;
     bool generic = true;
     nh_known_integrals known = {1, &integral, &generic, 0};
@@ -428,9 +524,12 @@ Test(normal_equation, levels)
 Test(normal_equation, equal_ones)
 {
     /* a reflection exchanges the diagonals, none the axes */
-    absence_case c = absence_case_text("name: q\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^4 - 2*y^4 - 5*x^2*y^2\n");
-    absence_case d = absence_case_text("name: q\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^4 - y^4 - 5*x^2*y^2\n");
-    nh_normal_equation *e[] = {equation_of(&c, "x = 0"), equation_of(&c, "y = 0"), equation_of(&d, "x = 0"), equation_of(&d, "y = x"), equation_of(&d, "y = -x")};
+    absence_case c =
+        absence_case_text("name: q\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^4 - 2*y^4 - 5*x^2*y^2\n");
+    absence_case d =
+        absence_case_text("name: q\ncoordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2 - x^4 - y^4 - 5*x^2*y^2\n");
+    nh_normal_equation *e[] = {equation_of(&c, "x = 0"), equation_of(&c, "y = 0"), equation_of(&d, "x = 0"),
+                               equation_of(&d, "y = x"), equation_of(&d, "y = -x")};
     cr_expect(nh_normal_equation_equal(e[3], e[4]));
     cr_expect_not(nh_normal_equation_equal(e[0], e[1]));
     cr_expect_not(nh_normal_equation_equal(e[2], e[3]));
@@ -444,16 +543,18 @@ Test(normal_equation, equal_ones)
 enum { most_letters = 16 };
 
 typedef struct {
-    size_t n;                                      /* letters */
-    double y[most_letters];                        /* the state on the plane */
-    double block[most_letters * most_letters];     /* d xi/dt = block xi, n - 2 of them */
-    double rate, slope;                            /* of the field's variable; w'/w per unit of it */
+    size_t n;                                  /* letters */
+    double y[most_letters];                    /* the state on the plane */
+    double block[most_letters * most_letters]; /* d xi/dt = block xi, n - 2 of them */
+    double rate, slope;                        /* of the field's variable; w'/w per unit of it */
 } differences;
 
-static void evaluate(const absence_case *c, const nh_plane *plane, size_t n, const nh_ex *e, const double *y, double *out)
+static void evaluate(const absence_case *c, const nh_plane *plane, size_t n, const nh_ex *e, const double *y,
+                     double *out)
 {
     const nh_model *m = c->of.model;
-    nh_tape *tape = nh_tape_create(m->dag, c->shape->count, plane->y, n, e, m->system->parameters, m->parameter, m->parameter_value);
+    nh_tape *tape = nh_tape_create(m->dag, c->shape->count, plane->y, n, e, m->system->parameters, m->parameter,
+                                   m->parameter_value);
     nh_tape_work *work = nh_tape_work_create(tape);
     nh_tape_eval(tape, work, y, out);
     nh_tape_work_free(work);
@@ -474,7 +575,8 @@ static bool differences_at(const absence_case *c, const nh_normal_equation *e, d
         evaluate(c, plane, 1, &E, d->y, &energy[k]);
     }
     double square = (h - energy[0]) / (energy[1] - energy[0]);
-    if (!(square > 1e-3) || !(fabs(energy[2] - 4 * energy[1] + 3 * energy[0]) < 1e-9 * (1 + fabs(energy[2])))) return false;
+    if (!(square > 1e-3) || !(fabs(energy[2] - 4 * energy[1] + 3 * energy[0]) < 1e-9 * (1 + fabs(energy[2]))))
+        return false;
     d->y[1] = sqrt(square);
     evaluate(c, plane, n, plane->rate, d->y, up);
     d->rate = up[0] * (plane->angle ? (1 + t * t) / 2 : 1);
@@ -512,7 +614,8 @@ static bool fits(const nh_linear_equation *block, const differences *d, double t
         for (size_t j = 0; j < n; j++) {
             int si = parity >> i & 1, sj = parity >> j & 1;
             double expected = d->block[i * n + j] / d->rate * pow(w, sj - si) - (i == j && si ? d->slope : 0);
-            if (!(fabs(at_point(block->num + i * n + j, t) / den - expected) < 1e-5 * (1 + fabs(expected)))) return false;
+            if (!(fabs(at_point(block->num + i * n + j, t) / den - expected) < 1e-5 * (1 + fabs(expected))))
+                return false;
         }
     return true;
 }

@@ -15,7 +15,7 @@ static int closes(const nh_absence *absence, const nh_absence_attempt *attempt)
 {
     const nh_normal_equation *equation = attempt->equation;
     if (equation->obstacle || !attempt->orbit) return 0;
-    if (attempt->orbit == equation->dimension) return 2;
+    if (attempt->orbit == equation->dimension && equation->single_valued) return 2;
     return absence->known == absence->shape->count - 1 - attempt->orbit ? 1 : 0;
 }
 
@@ -35,6 +35,14 @@ static bool enough(const nh_absence *absence, const nh_absence_attempt *attempt)
     return closes(absence, attempt) == 2 && !attempt->rational;
 }
 
+/* Was the same equation tried on another plane?  A reflection of the system exchanges planes. */
+static bool tried(const nh_absence *absence, const nh_normal_equation *equation)
+{
+    for (size_t i = 0; i < absence->attempts; i++)
+        if (nh_normal_equation_equal(absence->attempt[i].equation, equation)) return true;
+    return false;
+}
+
 /* Tries one plane at its levels; true: nothing better can come. */
 static bool try_plane(nh_arena *arena, nh_absence *absence, const nh_plane *plane, const nh_known_integrals *known)
 {
@@ -46,6 +54,10 @@ static bool try_plane(nh_arena *arena, nh_absence *absence, const nh_plane *plan
             attempt->obstacle = attempt->equation->obstacle;
             absence->attempts += n == 0; /* the same obstacle at another level says nothing more */
             return false;
+        }
+        if (tried(absence, attempt->equation)) {
+            nh_normal_equation_clear(attempt->equation);
+            continue;
         }
         nh_absence_attempt_run(arena, attempt, absence->everything);
         if (absence->best == SIZE_MAX || better(absence, attempt, &absence->attempt[absence->best]))
@@ -90,7 +102,9 @@ static void from_attempt(nh_absence *absence)
     absence->verdict = closed == 2 ? NH_ABSENCE_NONE_ELSE : closed == 1 ? NH_ABSENCE_DEPENDENT : NH_ABSENCE_AT_MOST;
     absence->at_most = absence->shape->count - 1 - a->orbit;
     absence->rational = a->rational;
-    absence->periodic = a->equation->periodic && (a->residues || a->orbit < 2);
+    /* SL(2) is its own commutator group, so a covering of the motion that opens an angle has it, too */
+    bool own = a->kovacic && a->kovacic->group == NH_GROUP_SL2 && a->orbit <= 2;
+    absence->periodic = a->equation->periodic && !own;
     absence->generic = a->equation->generic;
 }
 
@@ -101,10 +115,13 @@ static void from_darboux(nh_absence *absence)
     enum { plane_letters = 4 };
     const nh_darboux *darboux = absence->darboux;
     if (!darboux || !darboux->refuted || absence->best < absence->attempts) return;
-    bool plane = absence->shape->count == plane_letters && absence->known == 1;
-    absence->verdict = plane ? NH_ABSENCE_NONE_ELSE : NH_ABSENCE_LIOUVILLE;
+    bool plane = absence->shape->count == plane_letters;
+    absence->verdict = !plane ? NH_ABSENCE_LIOUVILLE : absence->known ? NH_ABSENCE_NONE_ELSE : NH_ABSENCE_AT_MOST;
     absence->at_most = plane ? 1 : absence->at_most;
     absence->generic = darboux->generic;
+    if (plane && absence->known > 1)
+        absence->contradiction = "a straight line of the homogeneous potential allows no integral besides the energy, "
+                                 "and one is proved";
 }
 
 /* A group that is not virtually abelian, though its orbits leave room for integrals: those of a Lagrangian system do
@@ -155,12 +172,21 @@ static void conclude(nh_arena *arena, nh_absence *absence)
     if (absence->verdict == NH_ABSENCE_OPEN) absence->obstacle = first_obstacle(absence);
 }
 
+/* The smallest shape, with the coordinates that the energy needs where it is conserved: it determines the curves. */
+static nh_closed_shape *shape_of(const nh_analysis *analysis)
+{
+    const nh_model *model = analysis->question->model;
+    bool conserved = false;
+    for (size_t k = 0; k < analysis->list->count; k++) conserved |= analysis->list->found[k].energy;
+    return nh_closed_shape_keeping(analysis->arena, model, conserved ? 1 : 0, &model->E);
+}
+
 void nh_absence_find(struct nh_analysis *analysis, bool everything)
 {
     nh_arena *arena = analysis->arena;
     nh_absence *absence = analysis->absence = nh_arena_alloc(arena, sizeof *absence);
     absence->everything = everything;
-    absence->shape = nh_closed_shape_of(arena, analysis->question->model);
+    absence->shape = shape_of(analysis);
     if (absence->shape->obstacle) {
         absence->obstacle = absence->shape->obstacle;
         return;

@@ -4,10 +4,11 @@
 #include "absence/absence_internal.h"
 #include "absence/polynomial_text.h"
 
-/* The first bound of the dimension, and where it comes from, is kept unless a later one is larger, or as large and of
- * the larger class of functions. */
-static void bound(nh_absence_attempt *attempt, size_t orbit, bool rational)
+/* An orbit of the blocks' group.  The first bound of the dimension, and where it comes from, is kept unless a later one
+ * is larger, or as large and of the larger class of functions. */
+static void bound(nh_absence_attempt *attempt, size_t of_blocks, bool rational)
 {
+    size_t orbit = nh_normal_equation_orbit(attempt->equation, of_blocks);
     if (orbit > attempt->orbit || (orbit == attempt->orbit && orbit && attempt->rational && !rational)) {
         attempt->orbit = orbit;
         attempt->rational = rational;

@@ -11,6 +11,9 @@ static const char irrational[] = "irrational numbers remain", roots_remain[] = "
                   transcendental[] = "functions that are not rational remain on the plane",
                   pole[] = "the plane lies in a pole of the equations";
 
+/* Engines take polynomials of degree 60; those that are longer only cost time.  A turn has degree 2 in tan(x/2). */
+enum { most_length = 80, most_turns = 32 };
+
 typedef struct {
     const nh_curve_place *place;
     size_t count;
@@ -31,7 +34,7 @@ static size_t index_of(const evaluation *v, nh_ex e)
     return low;
 }
 
-static void fail(evaluation *v, size_t k, nh_curve_state state, const char *why)
+static void note(evaluation *v, size_t k, nh_curve_state state, const char *why)
 {
     v->state[k] = state;
     v->why[k] = why;
@@ -49,7 +52,7 @@ static void set_number(nh_num a, fmpq_t out)
 static void number(evaluation *v, size_t k, nh_num a)
 {
     if (!nh_num_exact(a)) {
-        fail(v, k, NH_CURVE_SINGULAR, "rounded numbers remain");
+        note(v, k, NH_CURVE_SINGULAR, "rounded numbers remain");
         return;
     }
     fmpq_t q;
@@ -75,10 +78,10 @@ static void symbol(evaluation *v, size_t k)
     } else if (e == place->velocity) {
         nh_curve_field_set_w(&v->value[k]);
     } else if (e == place->coordinate) {
-        if (place->angle) fail(v, k, NH_CURVE_UNKNOWN, "an angle remains outside of sines and cosines");
+        if (place->angle) note(v, k, NH_CURVE_UNKNOWN, "an angle remains outside of sines and cosines");
         else nh_curve_field_set_x(&v->value[k]);
     } else {
-        fail(v, k, NH_CURVE_UNKNOWN, "letters without a value remain");
+        note(v, k, NH_CURVE_UNKNOWN, "letters without a value remain");
     }
 }
 
@@ -95,7 +98,7 @@ static void sum(evaluation *v, size_t k)
         size_t child = index_of(v, nh_child(dag, e, i));
         nh_num coefficient = nh_coefficient_of(dag, e, i);
         nh_curve_state state = nh_num_exact(coefficient) ? v->state[child] : NH_CURVE_SINGULAR;
-        if (state > v->state[k]) fail(v, k, state, v->why[child]);
+        if (state > v->state[k]) note(v, k, state, v->why[child]);
         if (v->state[k] != NH_CURVE_FINE) continue;
         set_number(coefficient, c);
         nh_curve_field_scale(&term, &v->value[child], c);
@@ -109,12 +112,11 @@ static void sum(evaluation *v, size_t k)
  * poles or branch points. */
 static nh_curve_state power(const evaluation *v, size_t base, nh_ex exponent, nh_curve_element *out, const char **why)
 {
-    enum { most = 100000 };
     nh_dag *dag = v->place->dag;
     const nh_curve_element *b = &v->value[base];
     bool fine = v->state[base] == NH_CURVE_FINE, numeric = nh_kind_of(dag, exponent) == NH_NUMBER;
     nh_num x = numeric ? nh_number_of(dag, exponent) : nh_num_int(0);
-    numeric = numeric && nh_num_short(x) && x.p < most && x.p > -most;
+    numeric = numeric && nh_num_short(x) && x.p < most_length && x.p > -most_length;
     bool whole = numeric && x.q == 1 && x.p > 0;
     *why = fine ? pole : v->why[base];
     if (!whole && (!fine || nh_curve_field_is_zero(b))) return NH_CURVE_SINGULAR;
@@ -146,11 +148,11 @@ static void product(evaluation *v, size_t k)
         nh_curve_state state = v->state[base];
         if (state != NH_CURVE_SINGULAR) state = power(v, base, nh_exponent_of(dag, e, i), &factor, &why);
         if (state == NH_CURVE_FINE && nh_curve_field_is_zero(&factor)) zero = true;
-        if (state > v->state[k]) fail(v, k, state, why);
+        if (state > v->state[k]) note(v, k, state, why);
         if (v->state[k] == NH_CURVE_FINE) nh_curve_field_mul(v->place->field, &v->value[k], &v->value[k], &factor);
     }
     if (zero && v->state[k] == NH_CURVE_UNKNOWN) {
-        v->state[k] = NH_CURVE_FINE;
+        note(v, k, NH_CURVE_FINE, NULL);
         nh_curve_field_set_si(&v->value[k], 0);
     }
     nh_curve_field_element_clear(&factor);
@@ -202,7 +204,6 @@ static nh_ex on_plane(const nh_curve_place *place, nh_ex e)
 /* Sine and cosine of k x + c pi into elements.  False: the argument is no such sum. */
 static bool sine_of(const evaluation *v, nh_ex argument, nh_curve_element *sine, nh_curve_element *cosine)
 {
-    enum { most_turns = 64 };
     const nh_curve_place *place = v->place;
     nh_dag *dag = place->dag;
     nh_ex rest = on_plane(place, argument), part, first = nh_int(dag, 0), second = nh_int(dag, 1);
@@ -240,9 +241,9 @@ static void trigonometric(evaluation *v, size_t k, nh_function f, nh_ex argument
     nh_curve_field_element_init(&sine);
     nh_curve_field_element_init(&cosine);
     if (!sine_of(v, argument, &sine, &cosine)) {
-        fail(v, k, f == NH_TAN ? NH_CURVE_SINGULAR : NH_CURVE_UNKNOWN, transcendental);
+        note(v, k, f == NH_TAN ? NH_CURVE_SINGULAR : NH_CURVE_UNKNOWN, transcendental);
     } else if (f == NH_TAN) {
-        if (!nh_curve_field_inv(v->place->field, &cosine, &cosine)) fail(v, k, NH_CURVE_SINGULAR, pole);
+        if (!nh_curve_field_inv(v->place->field, &cosine, &cosine)) note(v, k, NH_CURVE_SINGULAR, pole);
         else nh_curve_field_mul(v->place->field, &v->value[k], &sine, &cosine);
     } else {
         nh_curve_field_set(&v->value[k], f == NH_SIN ? &sine : &cosine);
@@ -274,7 +275,7 @@ static void call(evaluation *v, size_t k)
     nh_ex e = v->node[k];
     nh_function f = nh_function_of(dag, e);
     if (f == NH_PI) {
-        fail(v, k, NH_CURVE_UNKNOWN, irrational);
+        note(v, k, NH_CURVE_UNKNOWN, irrational);
         return;
     }
     nh_ex argument = nh_child(dag, e, 0);
@@ -292,8 +293,30 @@ static void call(evaluation *v, size_t k)
     }
     if (nh_arity(dag, e) == 1 && value_of_call(f, zero, one, &value)) nh_curve_field_set_si(&v->value[k], value);
     else
-        fail(v, k, entire && v->state[child] != NH_CURVE_SINGULAR ? NH_CURVE_UNKNOWN : NH_CURVE_SINGULAR,
+        note(v, k, entire && v->state[child] != NH_CURVE_SINGULAR ? NH_CURVE_UNKNOWN : NH_CURVE_SINGULAR,
              transcendental);
+}
+
+/* What is too long has no value. */
+static void shorten(evaluation *v, size_t k)
+{
+    const nh_curve_element *a = &v->value[k];
+    bool long_one = fmpz_poly_length(a->even) > most_length || fmpz_poly_length(a->odd) > most_length ||
+                    fmpz_poly_length(a->den) > most_length;
+    if (v->state[k] == NH_CURVE_FINE && long_one) note(v, k, NH_CURVE_UNKNOWN, "the degree on the plane is too high");
+}
+
+static void value_of(evaluation *v, size_t k)
+{
+    nh_dag *dag = v->place->dag;
+    switch (nh_kind_of(dag, v->node[k])) {
+    case NH_NUMBER: number(v, k, nh_number_of(dag, v->node[k])); break;
+    case NH_SYMBOL: symbol(v, k); break;
+    case NH_SUM: sum(v, k); break;
+    case NH_PRODUCT: product(v, k); break;
+    case NH_FUNCTION: call(v, k); break;
+    }
+    shorten(v, k);
 }
 
 void nh_curve_value(const nh_curve_place *place, size_t n, const nh_ex *e, nh_curve_element *value,
@@ -304,13 +327,7 @@ void nh_curve_value(const nh_curve_place *place, size_t n, const nh_ex *e, nh_cu
     evaluation v = {.place = place, .count = count, .node = node, .value = nh_curve_field_elements(count)};
     v.state = nh_alloc_array(count + 1, sizeof *v.state);
     v.why = nh_alloc_array(count + 1, sizeof *v.why);
-    for (size_t k = 0; k < count; k++) switch (nh_kind_of(place->dag, node[k])) {
-        case NH_NUMBER: number(&v, k, nh_number_of(place->dag, node[k])); break;
-        case NH_SYMBOL: symbol(&v, k); break;
-        case NH_SUM: sum(&v, k); break;
-        case NH_PRODUCT: product(&v, k); break;
-        case NH_FUNCTION: call(&v, k); break;
-        }
+    for (size_t k = 0; k < count; k++) value_of(&v, k);
     for (size_t i = 0; i < n; i++) {
         size_t k = index_of(&v, e[i]);
         state[i] = v.state[k];

@@ -85,6 +85,13 @@ static const char *read_system(nh_darboux_work *w, const nh_closed_shape *shape)
 
 /* ---- lines ---- */
 
+static void try_whole(nh_darboux_work *w, const long *c)
+{
+    nh_ex value[NH_DARBOUX_MOST];
+    for (size_t i = 0; i < w->n; i++) value[i] = nh_int(w->dag, c[i]);
+    nh_darboux_try(w, value, NULL);
+}
+
 /* Coordinates 0, 1, -1, of which the first is not negative; of many coordinates at most two are not 0. */
 static void try_simple_lines(nh_darboux_work *w)
 {
@@ -100,15 +107,15 @@ static void try_simple_lines(nh_darboux_work *w)
                 c[i] = (long)(rest % digits) - (rest % digits == 2 ? digits : 0);
                 if (!first) first = c[i];
             }
-            if (first > 0) nh_darboux_try(w, c);
+            if (first > 0) try_whole(w, c);
         }
         return;
     }
     for (size_t i = 0; i < w->n; i++) {
         c[i] = 1;
-        nh_darboux_try(w, c);
+        try_whole(w, c);
         for (size_t j = i + 1; j < w->n; j++) {
-            for (c[j] = 1; c[j] >= -1; c[j] -= 2) nh_darboux_try(w, c);
+            for (c[j] = 1; c[j] >= -1; c[j] -= 2) try_whole(w, c);
             c[j] = 0;
         }
         c[i] = 0;
@@ -120,7 +127,10 @@ static void find_lines(nh_darboux_work *w)
     for (size_t i = 0; i < w->n; i++) w->slope[i] = nh_diff(w->dag, w->potential, w->q[i]);
     for (size_t i = 0; i < w->n * w->n; i++) w->second[i] = nh_diff(w->dag, w->slope[i / w->n], w->q[i % w->n]);
     w->plane = nh_darboux_plane(w);
-    if (!w->plane) try_simple_lines(w);
+    if (!w->plane) {
+        nh_darboux_triangle(w);
+        try_simple_lines(w);
+    }
     nh_darboux *out = w->out;
     if (out->refuted) return;
     out->obstacle = !out->points     ? "no straight motion was found"

@@ -15,7 +15,8 @@
 #include "absence/closed_shape.h"
 
 typedef struct {
-    const char *point;      /* "c = (1, 0)" or "c = (1, s), s^2 - 2 = 0": V'(c) = M c, up to a factor */
+    const char *point; /* "c = (1, 0)", "c = (1, s), s^2 - 2 = 0", "c, an equilateral triangle ..": V'(c) = M c, up to
+                               a factor */
     const char *eigenvalue; /* "5/7", "3*sqrt(2) - 5", "lambda, lambda^3 + lambda + 1 = 0", "2*s + 1" in the s of the
                                point; of V''(c), exact; the first that is not in the table */
 } nh_darboux_refutation;
@@ -37,7 +38,8 @@ typedef struct {
 bool nh_darboux_allowed(long k, const fmpq_t lambda);
 
 /* All coordinates of the system count, also those that the shape leaves out.  The lines: with two coordinates and a
- * polynomial all, complex ones too; else those whose coordinates are 0, 1 and -1.  In the arena. */
+ * polynomial all, complex ones too; else those whose coordinates are 0, 1 and -1, and the equilateral triangle of three
+ * bodies.  In the arena. */
 nh_darboux *nh_darboux_of(nh_arena *arena, const nh_closed_shape *shape);
 
 #endif

@@ -156,7 +156,8 @@ static bool line_for_all(const nh_darboux_work *w, const family *f)
 {
     nh_dag *dag = w->dag;
     nh_ex c[NH_DARBOUX_MOST], slope[NH_DARBOUX_MOST], momentum[NH_DARBOUX_MOST];
-    for (size_t i = 0; i < w->n; i++) c[i] = nh_int(dag, w->line[i]);
+    for (size_t i = 0; i < w->n; i++) c[i] = w->line[i];
+    if (w->triangle && !nh_darboux_triangle_place(dag, w->n, f->inertia, c)) return false;
     for (size_t i = 0; i < w->n; i++) {
         slope[i] = nh_substitute(dag, nh_diff(dag, f->potential, w->q[i]), w->n, w->q, c);
         momentum[i] = nh_int(dag, 0);

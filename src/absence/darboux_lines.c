@@ -9,7 +9,8 @@
 #include "base/text.h"
 #include "exact/normal.h"
 #include "graph/dag.h"
-#include "graph/monomials.h"
+#include "graph/node.h"
+#include "graph/num.h"
 #include "graph/print.h"
 
 void nh_darboux_refute(nh_darboux_work *w, const char *point, const char *eigenvalue)
@@ -19,27 +20,32 @@ void nh_darboux_refute(nh_darboux_work *w, const char *point, const char *eigenv
     w->out->refutation = (nh_darboux_refutation){point, eigenvalue};
 }
 
-/* ---- one line with whole coordinates ---- */
+/* ---- one line ---- */
 
-static const char *line_words(const nh_darboux_work *w, const long *c)
+static const char *line_words(const nh_darboux_work *w, const nh_ex *c)
 {
     nh_text text;
     nh_text_init(&text);
-    for (size_t i = 0; i < w->n; i++) nh_text_addf(&text, "%s%ld", i ? ", " : "c = (", c[i]);
+    for (size_t i = 0; i < w->n; i++) {
+        char *value = nh_print_string(w->dag, c[i]);
+        nh_text_addf(&text, "%s%s", i ? ", " : "c = (", value);
+        nh_free(value);
+    }
     nh_text_add(&text, ")");
     const char *out = nh_arena_strdup(w->arena, nh_text_string(&text));
     nh_text_clear(&text);
     return out;
 }
 
-/* One root of an irreducible polynomial: "3*sqrt(2) - 5", or "lambda, lambda^3 + lambda + 1 = 0". */
-static const char *root_words(const nh_darboux_work *w, const fmpz_poly_t g)
+/* One root of an irreducible polynomial: "3*sqrt(2) - 5" where `any` root will do, or "lambda, lambda^3 + lambda + 1 =
+ * 0". */
+static const char *root_words(const nh_darboux_work *w, const fmpz_poly_t g, bool any)
 {
     const char *out = NULL;
     fmpq_t half, square;
     fmpq_init(half);
     fmpq_init(square);
-    if (fmpz_poly_degree(g) == 2) { /* h +- sqrt(h^2 - c/a) with h = -b/(2 a) */
+    if (any && fmpz_poly_degree(g) == 2) { /* h +- sqrt(h^2 - c/a) with h = -b/(2 a) */
         fmpq_set_fmpz_frac(half, fmpz_poly_get_coeff_ptr(g, 1), fmpz_poly_get_coeff_ptr(g, 2));
         fmpq_div_2exp(half, half, 1);
         fmpq_neg(half, half);
@@ -60,8 +66,30 @@ static const char *root_words(const nh_darboux_work *w, const fmpz_poly_t g)
     return out;
 }
 
+/* Has A + sqrt(d) B, given as (A, d B; B, A), a rational characteristic polynomial: have its powers rational traces?
+ * Then that of the large matrix is its square. */
+static bool rational_characteristic(const nh_darboux_work *w, const fmpq_mat_t matrix)
+{
+    slong n = (slong)w->n;
+    if (fmpq_mat_nrows(matrix) == n) return true;
+    bool rational = true;
+    fmpq_mat_t power;
+    fmpq_t trace;
+    fmpq_mat_init_set(power, matrix);
+    fmpq_init(trace);
+    for (slong k = 0; k < n && rational; k++) {
+        fmpq_zero(trace);
+        for (slong i = 0; i < n; i++) fmpq_add(trace, trace, fmpq_mat_entry(power, n + i, i));
+        rational = fmpq_is_zero(trace);
+        fmpq_mat_mul(power, power, matrix);
+    }
+    fmpq_clear(trace);
+    fmpq_mat_clear(power);
+    return rational;
+}
+
 /* The eigenvalues: each root of an irreducible factor of degree > 1 is not rational. */
-static void test_matrix(nh_darboux_work *w, const fmpq_mat_t matrix, const long *c)
+static void test_matrix(nh_darboux_work *w, const fmpq_mat_t matrix, const char *point)
 {
     fmpq_poly_t characteristic;
     fmpz_poly_t f;
@@ -71,20 +99,21 @@ static void test_matrix(nh_darboux_work *w, const fmpq_mat_t matrix, const long 
     fmpz_poly_init(f);
     fmpz_poly_factor_init(parts);
     fmpq_init(lambda);
+    bool any = rational_characteristic(w, matrix);
     fmpq_mat_charpoly(characteristic, matrix);
     fmpq_poly_get_numerator(f, characteristic);
     fmpz_poly_factor(parts, f);
     for (slong i = 0; i < parts->num && !w->out->refuted; i++) {
         const fmpz_poly_struct *g = parts->p + i;
         if (fmpz_poly_degree(g) > 1) {
-            nh_darboux_refute(w, line_words(w, c), root_words(w, g));
+            nh_darboux_refute(w, point, root_words(w, g, any));
             continue;
         }
         fmpq_set_fmpz_frac(lambda, fmpz_poly_get_coeff_ptr(g, 0), fmpz_poly_get_coeff_ptr(g, 1));
         fmpq_neg(lambda, lambda);
         if (nh_darboux_allowed(w->out->degree, lambda)) continue;
         char *text = fmpq_get_str(NULL, 10, lambda);
-        nh_darboux_refute(w, line_words(w, c), nh_arena_strdup(w->arena, text));
+        nh_darboux_refute(w, point, nh_arena_strdup(w->arena, text));
         flint_free(text);
     }
     fmpq_clear(lambda);
@@ -93,215 +122,110 @@ static void test_matrix(nh_darboux_work *w, const fmpq_mat_t matrix, const long 
     fmpq_poly_clear(characteristic);
 }
 
-/* M c */
-static void momentum(const nh_darboux_work *w, const long *c, fmpq_mat_t out)
-{
-    fmpq_mat_t column;
-    fmpq_mat_init(column, (slong)w->n, 1);
-    for (size_t i = 0; i < w->n; i++) fmpq_set_si(fmpq_mat_entry(column, (slong)i, 0), c[i], 1);
-    fmpq_mat_mul(out, w->inertia, column);
-    fmpq_mat_clear(column);
-}
-
 /* The factor mu with V'(c) = mu M c; false: there is none, or it is 0. */
-static bool on_line(const nh_darboux_work *w, const nh_rational_value_place *place, const long *c, nh_ex *mu)
+static bool on_line(const nh_darboux_work *w, const nh_rational_value_place *place, nh_ex *mu)
 {
-    nh_ex slope[NH_DARBOUX_MOST], size[NH_DARBOUX_MOST];
-    fmpq_mat_t p;
-    fmpq_mat_init(p, (slong)w->n, 1);
-    momentum(w, c, p);
+    nh_dag *dag = w->dag;
+    nh_ex slope[NH_DARBOUX_MOST], momentum[NH_DARBOUX_MOST];
     size_t first = w->n;
     for (size_t i = 0; i < w->n; i++) {
         slope[i] = nh_rational_value_at(place, w->slope[i]);
-        size[i] = nh_rational_value_number(w->dag, fmpq_mat_entry(p, (slong)i, 0));
-        if (first == w->n && !nh_is_zero(w->dag, size[i])) first = i;
+        momentum[i] = nh_int(dag, 0);
+        for (size_t j = 0; j < w->n; j++) {
+            nh_ex mass = nh_rational_value_number(dag, fmpq_mat_entry(w->inertia, (slong)i, (slong)j));
+            momentum[i] = nh_add(dag, momentum[i], nh_mul(dag, mass, place->value[j]));
+        }
+        if (first == w->n && nh_rational_value_differs(dag, momentum[i])) first = i;
     }
-    fmpq_mat_clear(p);
-    if (first == w->n || !nh_rational_value_differs(w->dag, slope[first])) return false;
-    *mu = nh_div(w->dag, slope[first], size[first]);
+    if (first == w->n || !nh_rational_value_differs(dag, slope[first])) return false;
+    *mu = nh_simplify(dag, nh_div(dag, slope[first], momentum[first]));
     for (size_t i = 0; i < w->n; i++) {
-        nh_ex difference = nh_sub(w->dag, slope[i], nh_mul(w->dag, *mu, size[i]));
-        if (nh_normal_is_zero(w->dag, difference, 0) != NH_ZERO) return false;
+        nh_ex difference = nh_sub(dag, slope[i], nh_mul(dag, *mu, momentum[i]));
+        if (nh_normal_is_zero(dag, difference, 0) != NH_ZERO) return false;
     }
     return true;
 }
 
-void nh_darboux_try(nh_darboux_work *w, const long *c)
+/* The whole number whose square root is the only root in the entries; 0: there is no root; -1: there are others. */
+static int64_t only_root(const nh_dag *dag, size_t count, const nh_ex *entry)
 {
-    nh_ex value[NH_DARBOUX_MOST], mu;
-    for (size_t i = 0; i < w->n; i++) value[i] = nh_int(w->dag, c[i]);
-    nh_rational_value_place place = {.dag = w->dag, .count = w->n, .symbol = w->q, .value = value};
-    if (!nh_rational_value_analytic(&place, w->potential) || !on_line(w, &place, c, &mu)) return;
-    w->out->points++;
-    fmpq_mat_t second, matrix;
-    fmpq_mat_init(second, (slong)w->n, (slong)w->n);
-    fmpq_mat_init(matrix, (slong)w->n, (slong)w->n);
-    bool rational = true, was = w->out->refuted;
-    for (size_t i = 0; i < w->n * w->n && rational; i++) {
-        nh_ex entry = nh_div(w->dag, nh_rational_value_at(&place, w->second[i]), mu);
-        rational = nh_rational_value_of(w->dag, entry, fmpq_mat_entry(second, (slong)(i / w->n), (slong)(i % w->n)));
+    int64_t only = 0;
+    for (size_t i = 0; i < count; i++) {
+        NH_LIST(radicand);
+        size_t n = nh_radicands_in(dag, entry[i], &radicand);
+        for (size_t k = 0; k < n; k++) {
+            if (nh_kind_of(dag, radicand[k]) != NH_NUMBER) return -1;
+            nh_num value = nh_number_of(dag, radicand[k]);
+            if (!nh_num_short(value) || value.q != 1 || value.p <= 1 || (only && only != value.p)) return -1;
+            only = value.p;
+        }
     }
-    if (rational) {
-        fmpq_mat_mul(matrix, w->inverse, second);
-        test_matrix(w, matrix, c);
-        if (w->out->refuted && !was) memcpy(w->line, c, w->n * sizeof *c);
-    } else {
-        w->out->undecided++;
+    return only;
+}
+
+/* The entry is a + b sqrt(d) with rational a and b; false: it is not seen to be. */
+static bool split(nh_dag *dag, nh_ex entry, int64_t d, fmpq_t a, fmpq_t b)
+{
+    if (!d) return nh_rational_value_of(dag, entry, a);
+    nh_ex root = nh_sqrt(dag, nh_int(dag, d)), symbol = nh_symbol_fresh(dag, "root"), other = nh_neg(dag, root);
+    nh_ex conjugate = nh_substitute_root(dag, entry, nh_int(dag, d), symbol);
+    conjugate = nh_substitute(dag, conjugate, 1, &symbol, &other);
+    nh_ex half = nh_ratio(dag, 1, 2), sum = nh_mul(dag, half, nh_add(dag, entry, conjugate)),
+          difference = nh_mul(dag, half, nh_sub(dag, entry, conjugate));
+    return nh_rational_value_of(dag, sum, a) && nh_rational_value_of(dag, nh_div(dag, difference, root), b);
+}
+
+/* A + sqrt(d) B acts on u + sqrt(d) v, with rational u and v, as (A, d B; B, A).  The characteristic polynomial of this
+ * is the product of that of A + sqrt(d) B with its conjugate: each factor over Q of the one has a root in common with
+ * the other.  The entries are those of V''(c)/mu, which M^-1 multiplies. */
+static bool matrix_of(const nh_darboux_work *w, const nh_ex *entry, fmpq_mat_t out)
+{
+    slong n = (slong)w->n;
+    int64_t d = only_root(w->dag, w->n * w->n, entry);
+    if (d < 0) return false;
+    fmpq_mat_t whole, root;
+    fmpq_mat_init(whole, n, n);
+    fmpq_mat_init(root, n, n);
+    bool good = true;
+    for (slong i = 0; i < n * n && good; i++)
+        good = split(w->dag, entry[i], d, fmpq_mat_entry(whole, i / n, i % n), fmpq_mat_entry(root, i / n, i % n));
+    fmpq_mat_mul(whole, w->inverse, whole);
+    fmpq_mat_mul(root, w->inverse, root);
+    fmpq_t square;
+    fmpq_init(square);
+    fmpq_set_si(square, (slong)d, 1);
+    fmpq_mat_clear(out);
+    fmpq_mat_init(out, d ? 2 * n : n, d ? 2 * n : n);
+    for (slong i = 0; i < n; i++)
+        for (slong j = 0; j < n; j++) {
+            fmpq_set(fmpq_mat_entry(out, i, j), fmpq_mat_entry(whole, i, j));
+            if (!d) continue;
+            fmpq_set(fmpq_mat_entry(out, n + i, n + j), fmpq_mat_entry(whole, i, j));
+            fmpq_set(fmpq_mat_entry(out, n + i, j), fmpq_mat_entry(root, i, j));
+            fmpq_mul(fmpq_mat_entry(out, i, n + j), fmpq_mat_entry(root, i, j), square);
+        }
+    fmpq_clear(square);
+    fmpq_mat_clear(root);
+    fmpq_mat_clear(whole);
+    return good;
+}
+
+void nh_darboux_try(nh_darboux_work *w, const nh_ex *c, const char *words)
+{
+    nh_ex mu, entry[NH_DARBOUX_MOST * NH_DARBOUX_MOST];
+    nh_rational_value_place place = {.dag = w->dag, .count = w->n, .symbol = w->q, .value = c};
+    if (!nh_rational_value_analytic(&place, w->potential) || !on_line(w, &place, &mu)) return;
+    w->out->points++;
+    if (w->out->refuted) return;
+    fmpq_mat_t matrix;
+    fmpq_mat_init(matrix, 0, 0);
+    for (size_t i = 0; i < w->n * w->n; i++)
+        entry[i] = nh_simplify(w->dag, nh_div(w->dag, nh_rational_value_at(&place, w->second[i]), mu));
+    if (matrix_of(w, entry, matrix)) test_matrix(w, matrix, words ? words : line_words(w, c));
+    else w->out->undecided++;
+    if (w->out->refuted) {
+        memcpy(w->line, c, w->n * sizeof *c);
+        w->triangle = words != NULL;
     }
     fmpq_mat_clear(matrix);
-    fmpq_mat_clear(second);
-}
-
-/* ---- all lines (1, s) of a polynomial in two coordinates ---- */
-
-/* On (1, s), with f(s) = V(1, s): V_x = k f - s f', V_y = f', V_xx = k (k - 1) f - 2 (k - 1) s f' + s^2 f'',
- * V_xy = (k - 1) f' - s f'', V_yy = f''. */
-typedef struct {
-    fmpq_poly_t s, x, y, xx, xy, yy; /* s; the derivatives of V */
-    fmpq_poly_t rate, turn, trace;   /* (M^-1 V')_x, (M^-1 V')_y - s (M^-1 V')_x, the trace of M^-1 V'' */
-} plane;
-
-static void plane_each(plane *p, void (*do_to)(fmpq_poly_t))
-{
-    fmpq_poly_struct *const all[] = {p->s, p->x, p->y, p->xx, p->xy, p->yy, p->rate, p->turn, p->trace};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) do_to(all[i]);
-}
-
-/* out := a f + b s g */
-static void combine(fmpq_poly_t out, long a, const fmpq_poly_t f, long b, const fmpq_poly_t s, const fmpq_poly_t g)
-{
-    fmpq_poly_t part;
-    fmpq_poly_init(part);
-    fmpq_poly_scalar_mul_si(part, f, a);
-    fmpq_poly_mul(out, s, g);
-    fmpq_poly_scalar_mul_si(out, out, b);
-    fmpq_poly_add(out, out, part);
-    fmpq_poly_clear(part);
-}
-
-/* out += a f */
-static void add_multiple(fmpq_poly_t out, const fmpq_t a, const fmpq_poly_t f)
-{
-    fmpq_poly_t part;
-    fmpq_poly_init(part);
-    fmpq_poly_scalar_mul_fmpq(part, f, a);
-    fmpq_poly_add(out, out, part);
-    fmpq_poly_clear(part);
-}
-
-static void plane_fill(plane *p, const nh_darboux_work *w, const fmpq_poly_t f)
-{
-    long k = w->out->degree;
-    const fmpq *xx = fmpq_mat_entry(w->inverse, 0, 0), *xy = fmpq_mat_entry(w->inverse, 0, 1),
-               *yy = fmpq_mat_entry(w->inverse, 1, 1);
-    fmpq_poly_set_coeff_si(p->s, 1, 1);
-    fmpq_poly_derivative(p->y, f);
-    fmpq_poly_derivative(p->yy, p->y);
-    combine(p->x, k, f, -1, p->s, p->y);
-    combine(p->xy, k - 1, p->y, -1, p->s, p->yy);
-    combine(p->xx, k - 1, p->x, -1, p->s, p->xy); /* V_x is homogeneous of degree k - 1 */
-    add_multiple(p->rate, xx, p->x);
-    add_multiple(p->rate, xy, p->y);
-    add_multiple(p->turn, xy, p->x);
-    add_multiple(p->turn, yy, p->y);
-    fmpq_poly_mul(p->trace, p->s, p->rate);
-    fmpq_poly_sub(p->turn, p->turn, p->trace);
-    fmpq_poly_zero(p->trace);
-    add_multiple(p->trace, xx, p->xx);
-    add_multiple(p->trace, xy, p->xy);
-    add_multiple(p->trace, xy, p->xy);
-    add_multiple(p->trace, yy, p->yy);
-}
-
-static const char *direction_words(const nh_darboux_work *w, const fmpz_poly_t g)
-{
-    if (fmpz_poly_degree(g) > 1)
-        return nh_arena_printf(w->arena, "c = (1, s), %s = 0", nh_polynomial_text_whole(w->arena, g, "s"));
-    fmpq_t s;
-    fmpq_init(s);
-    fmpq_set_fmpz_frac(s, fmpz_poly_get_coeff_ptr(g, 0), fmpz_poly_get_coeff_ptr(g, 1));
-    fmpq_neg(s, s);
-    char *text = fmpq_get_str(NULL, 10, s);
-    const char *out = nh_arena_printf(w->arena, "c = (1, %s)", text);
-    flint_free(text);
-    fmpq_clear(s);
-    return out;
-}
-
-/* The lines at the roots of an irreducible factor g: mu = `rate` modulo g, and the eigenvalue beside k - 1 is
- * trace/mu - (k - 1), an element of Q[s]/(g). */
-static void test_factor(nh_darboux_work *w, const plane *p, const fmpz_poly_t g)
-{
-    fmpq_poly_t f, mu, inverse, other, lambda;
-    fmpq_t value;
-    fmpq_poly_struct *const all[] = {f, mu, inverse, other, lambda};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) fmpq_poly_init(all[i]);
-    fmpq_init(value);
-    fmpq_poly_set_fmpz_poly(f, g);
-    fmpq_poly_rem(mu, p->rate, f);
-    if (!fmpq_poly_is_zero(mu)) {
-        w->out->points += (size_t)fmpz_poly_degree(g);
-        fmpq_poly_xgcd(other, inverse, lambda, mu, f);
-        fmpq_poly_mul(lambda, p->trace, inverse);
-        fmpq_poly_set_si(other, w->out->degree - 1);
-        fmpq_poly_sub(lambda, lambda, other);
-        fmpq_poly_rem(lambda, lambda, f);
-        fmpq_poly_get_coeff_fmpq(value, lambda, 0);
-        if (fmpq_poly_degree(lambda) > 0 || !nh_darboux_allowed(w->out->degree, value))
-            nh_darboux_refute(w, direction_words(w, g), nh_polynomial_text(w->arena, lambda, "s"));
-    }
-    fmpq_clear(value);
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) fmpq_poly_clear(all[i]);
-}
-
-/* V(1, s); false: the potential is no polynomial with rational coefficients. */
-static bool on_directions(const nh_darboux_work *w, fmpq_poly_t f)
-{
-    enum { most_terms = 1000 };
-    nh_monomials m;
-    fmpq_t value;
-    if (w->n != 2 || w->out->degree < 0) return false;
-    for (size_t i = 0; i < w->n; i++)
-        if (!nh_monomials_has_degree(w->dag, w->potential, w->q[i])) return false;
-    if (!nh_monomials_of(w->dag, w->potential, w->n, w->q, most_terms, &m)) return false;
-    bool good = true;
-    fmpq_init(value);
-    for (size_t i = 0; i < m.count && good; i++) {
-        slong power = m.exponent[i * m.symbols + 1];
-        good = nh_rational_value_of(w->dag, m.coefficient[i], value);
-        /* Equal powers of y belong to equal monomials. */
-        if (good && !fmpq_is_zero(value)) fmpq_poly_set_coeff_fmpq(f, power, value);
-    }
-    fmpq_clear(value);
-    nh_monomials_clear(&m);
-    return good;
-}
-
-bool nh_darboux_plane(nh_darboux_work *w)
-{
-    static const long up[] = {0, 1};
-    fmpq_poly_t f;
-    fmpz_poly_t turn;
-    plane p;
-    fmpq_poly_init(f);
-    bool good = on_directions(w, f);
-    if (good) {
-        plane_each(&p, fmpq_poly_init);
-        plane_fill(&p, w, f);
-        good = !fmpq_poly_is_zero(p.turn);
-        if (good) {
-            fmpz_poly_factor_t parts;
-            fmpz_poly_init(turn);
-            fmpz_poly_factor_init(parts);
-            fmpq_poly_get_numerator(turn, p.turn);
-            fmpz_poly_factor(parts, turn);
-            for (slong i = 0; i < parts->num; i++) test_factor(w, &p, parts->p + i);
-            fmpz_poly_factor_clear(parts);
-            fmpz_poly_clear(turn);
-            nh_darboux_try(w, up);
-        }
-        plane_each(&p, fmpq_poly_clear);
-    }
-    fmpq_poly_clear(f);
-    return good;
 }

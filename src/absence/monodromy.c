@@ -12,7 +12,7 @@ enum {
     spare_bits = 32 /* of the singular points */
 };
 
-static const uint64_t most_work = (uint64_t)1 << 28; /* about 10 seconds */
+static const uint64_t most_work = (uint64_t)1 << 27; /* about 5 seconds */
 
 /* ---- equations and their singular points ---- */
 
@@ -218,7 +218,7 @@ nh_monodromy *nh_monodromy_try(nh_arena *arena, size_t blocks, const nh_linear_e
     bool hopeless = false;
     for (long bits = first_bits; bits <= last_bits && !hopeless; bits *= 2) {
         nh_monodromy *m = attempt(arena, blocks, block, bits, &hopeless);
-        if (!best || m->rank >= best->rank) best = m;
+        if (!best || m->rank > best->rank || (m->rank == best->rank && m->trace)) best = m;
         if (best->rank == best->size) break;
     }
     return best;

@@ -12,10 +12,12 @@
 
 enum {
     most_pairs = 40,  /* words of two letters */
+    most_powers = 24, /* words of a power and a letter */
     most_longer = 24, /* words of three to six letters */
     shortest = 3,
     longer_lengths = 4,
-    most_letters = 8
+    small_part = 4, /* what is less than 2^(-bits/4) of the largest, may be 0 */
+    most_letters = 12
 };
 
 /* The elements found, as far as they concern some of the blocks: the quotient of the sum by the others. */
@@ -85,16 +87,33 @@ static void span_apply(span *s, const acb_mat_struct *element)
     }
 }
 
-/* Is the ball wider than 2^e? */
-static bool radius_above(const acb_t x, slong e)
+/* Is some ball of the vector or matrix wider than `tolerance`? */
+static bool wider(acb_srcptr x, size_t count, const mag_t tolerance)
 {
-    return mag_cmp_2exp_si(arb_radref(acb_realref(x)), e) > 0 || mag_cmp_2exp_si(arb_radref(acb_imagref(x)), e) > 0;
+    bool is = false;
+    for (size_t k = 0; k < count && !is; k++)
+        is = mag_cmp(arb_radref(acb_realref(x + k)), tolerance) > 0 ||
+             mag_cmp(arb_radref(acb_imagref(x + k)), tolerance) > 0;
+    return is;
 }
 
-/* Does A x lie outside of the span of the others, certainly?  Then its row joins them. */
-static bool span_raised(span *s, const acb_mat_struct *element)
+/* 2^e times a bound of the largest absolute value, and of `least`. */
+static void part_of_largest(mag_t tolerance, acb_srcptr x, size_t count, ulong least, slong e)
 {
-    span_apply(s, element);
+    mag_t size;
+    mag_init(size);
+    mag_set_ui(tolerance, least);
+    for (size_t k = 0; k < count; k++) {
+        acb_get_mag(size, x + k);
+        mag_max(tolerance, tolerance, size);
+    }
+    mag_mul_2exp_si(tolerance, tolerance, e);
+    mag_clear(size);
+}
+
+/* The row behind the others minus what it has of them. */
+static void span_reduce(span *s)
+{
     acb_t factor;
     acb_init(factor);
     acb_ptr row = acb_mat_entry(s->row, (slong)s->rank, 0);
@@ -106,18 +125,26 @@ static bool span_raised(span *s, const acb_mat_struct *element)
         acb_zero(row + s->pivot[r]); /* exactly, by choice of the factor */
     }
     acb_clear(factor);
+}
+
+/* Does A x lie outside of the span of the others, certainly?  Then its row joins them. */
+static bool span_raised(span *s, const acb_mat_struct *element)
+{
+    mag_t tolerance;
+    mag_init(tolerance);
+    span_apply(s, element);
+    acb_srcptr row = acb_mat_entry(s->row, (slong)s->rank, 0);
+    part_of_largest(tolerance, row, s->size, 1, -s->sum->bits / small_part);
+    span_reduce(s);
     size_t best = s->size;
-    bool wide = false; /* is some ball around 0 no small one? */
-    for (size_t k = 0; k < s->size; k++) {
-        if (acb_contains_zero(row + k)) wide = wide || radius_above(row + k, -s->sum->bits / 4);
-        else if (acb_is_finite(row + k) && (best == s->size || larger(row + k, row + best))) best = k;
-    }
-    if (best == s->size) {
-        s->inaccurate = s->inaccurate || wide;
-        return false;
-    }
-    s->pivot[s->rank++] = best;
-    return true;
+    for (size_t k = 0; k < s->size; k++)
+        if (!acb_contains_zero(row + k) && acb_is_finite(row + k) && (best == s->size || larger(row + k, row + best)))
+            best = k;
+    bool raised = best < s->size;
+    if (raised) s->pivot[s->rank++] = best;
+    else if (wider(row, s->size, tolerance)) s->inaccurate = true; /* is it 0, or not known well enough? */
+    mag_clear(tolerance);
+    return raised;
 }
 
 /* Keeps a copy of an element that raises the rank. */
@@ -165,6 +192,27 @@ static void span_take(span *s, const acb_mat_struct *element)
 
 /* ---- words in the loops ---- */
 
+/* Two letters: number of `shown` among all pairs, in the order of the first. */
+static size_t spell_pair(size_t points, size_t number, size_t shown, size_t *letter)
+{
+    size_t left = number * (points * (points - 1) / 2) / shown, first = 0;
+    for (; left >= points - 1 - first; first++) left -= points - 1 - first;
+    letter[0] = first;
+    letter[1] = first + 1 + left;
+    return 2;
+}
+
+/* A power and another letter: what has only eigenvalues of absolute value 1, moves far when it is repeated. */
+static size_t spell_power(size_t points, size_t number, size_t *letter)
+{
+    static const size_t power[] = {5, 2, 8, 3};
+    size_t pairs = points * (points - 1), first = number % pairs / (points - 1), second = number % pairs % (points - 1);
+    size_t times = power[(number + number / pairs) % (sizeof power / sizeof *power)];
+    for (size_t k = 0; k < times; k++) letter[k] = first;
+    letter[times] = second + (second >= first);
+    return times + 1;
+}
+
 /* The letters of a word; 0: there are no more. */
 static size_t spell(size_t points, size_t number, size_t *letter)
 {
@@ -172,17 +220,14 @@ static size_t spell(size_t points, size_t number, size_t *letter)
         letter[0] = number;
         return 1;
     }
+    if (points < 2) return 0;
     number -= points;
     size_t pairs = points * (points - 1) / 2, shown = pairs < most_pairs ? pairs : most_pairs;
-    if (number < shown) {
-        size_t left = number * pairs / shown, first = 0;
-        for (; left >= points - 1 - first; first++) left -= points - 1 - first;
-        letter[0] = first;
-        letter[1] = first + 1 + left;
-        return 2;
-    }
+    if (number < shown) return spell_pair(points, number, shown, letter);
     number -= shown;
-    if (points < 2 || number >= most_longer) return 0;
+    if (number < most_powers) return spell_power(points, number, letter);
+    number -= most_powers;
+    if (number >= most_longer) return 0;
     size_t length = shortest + number % longer_lengths;
     uint64_t seed = number + 1;
     for (size_t k = 0; k < length; k++) {
@@ -231,24 +276,12 @@ static bool log_of_moduli(acb_mat_t A, const acb_mat_t g, slong bits, bool *modu
 /* Is the matrix known to less than half of the bits? */
 static bool coarse(const acb_mat_t g, slong bits)
 {
-    mag_t largest, size;
-    mag_init(largest);
-    mag_init(size);
-    for (slong i = 0; i < acb_mat_nrows(g); i++)
-        for (slong j = 0; j < acb_mat_ncols(g); j++) {
-            acb_get_mag(size, acb_mat_entry(g, i, j));
-            mag_max(largest, largest, size);
-        }
-    mag_mul_2exp_si(largest, largest, -bits / 2);
-    bool is = false;
-    for (slong i = 0; i < acb_mat_nrows(g); i++)
-        for (slong j = 0; j < acb_mat_ncols(g); j++) {
-            acb_srcptr x = acb_mat_entry(g, i, j);
-            is = is || mag_cmp(arb_radref(acb_realref(x)), largest) > 0 ||
-                 mag_cmp(arb_radref(acb_imagref(x)), largest) > 0;
-        }
-    mag_clear(largest);
-    mag_clear(size);
+    size_t entries = (size_t)(acb_mat_nrows(g) * acb_mat_ncols(g));
+    mag_t tolerance;
+    mag_init(tolerance);
+    part_of_largest(tolerance, g->entries, entries, 0, -bits / 2);
+    bool is = wider(g->entries, entries, tolerance);
+    mag_clear(tolerance);
     return is;
 }
 
@@ -316,7 +349,7 @@ static void prove_parts(const span *all, size_t words, const found *found_of, nh
 static void prove_with(span *all, nh_monodromy_proof *proof)
 {
     const nh_monodromy_sum *sum = all->sum;
-    size_t words = 0, most = sum->points + most_pairs + most_longer, letter[most_letters], letters;
+    size_t words = 0, most = sum->points + most_pairs + most_powers + most_longer, letter[most_letters], letters;
     found *found_of = nh_alloc_array(most + 1, sizeof *found_of);
     for (; all->rank < all->size && (letters = spell(sum->points, words, letter)); words++) {
         found *f = found_of + words;

@@ -2,7 +2,7 @@
  *
  *     normal_equation_curve      w^2 = 2 (h - V)/m from an integral m w^2/2 + V on the plane; the field K = Q(x)[w]
  *     normal_equation_reduced    d xi/dt = B xi for normal directions, less those that integrals hold
- *     normal_equation_rational   xi = w^s eta, with coefficients in Q(x); blocks */
+ *     normal_equation_rational   xi = w^s eta, with coefficients in Q(x), or twice as many unknowns; blocks */
 #include "absence/normal_equation.h"
 
 #include "absence/normal_equation_internal.h"
@@ -68,16 +68,25 @@ nh_normal_equation *nh_normal_equation_of(nh_arena *arena, const nh_closed_shape
     return out;
 }
 
+/* An orbit of the doubled equation lies in the product of an orbit of the equation and one of its conjugate, which are
+ * of the same dimension: continuation along the curve from (x, w) to (x, -w) exchanges the two. */
+size_t nh_normal_equation_orbit(const nh_normal_equation *equation, size_t orbit)
+{
+    return equation->doubled ? (orbit + 1) / 2 : orbit;
+}
+
 void nh_normal_equation_clear(nh_normal_equation *equation)
 {
-    for (size_t b = 0; b < equation->blocks; b++) nh_linear_equation_clear(&equation->block[b]);
-    equation->blocks = 0;
+    for (size_t b = 0; equation->block && b < equation->blocks; b++) nh_linear_equation_clear(&equation->block[b]);
+    equation->block = NULL;
 }
 
 bool nh_normal_equation_equal(const nh_normal_equation *a, const nh_normal_equation *b)
 {
     if (a->obstacle || b->obstacle || a->known != b->known || a->blocks != b->blocks) return false;
-    if (a->triangular != b->triangular || a->periodic != b->periodic || a->generic != b->generic) return false;
+    if (a->triangular != b->triangular || a->doubled != b->doubled || a->periodic != b->periodic ||
+        a->generic != b->generic)
+        return false;
     for (size_t k = 0; k < a->blocks; k++) {
         const nh_linear_equation *p = &a->block[k], *q = &b->block[k];
         if (p->size != q->size || !fmpz_poly_equal(p->den, q->den)) return false;

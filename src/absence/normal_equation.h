@@ -21,7 +21,8 @@ typedef struct {
                            * field */
     size_t dimension; /* d = letters - 1 - known */
     size_t blocks;
-    nh_linear_equation *block; /* the graded pieces of a triangular form; the sizes add to d */
+    nh_linear_equation *block; /* the graded pieces of a triangular form; the sizes add to d, or to 2 d */
+    bool doubled;              /* the coefficients are not rational: the equation beside its conjugate */
     bool triangular;           /* pieces of a triangular form, not a direct sum */
 } nh_normal_equation;
 
@@ -34,10 +35,13 @@ typedef struct {
     size_t energy; /* the index of the one that determines the curve, or count: none */
 } nh_known_integrals;
 
+/* What an orbit of dimension `orbit` of the blocks' group says of the equation's own: at least so large a dimension. */
+size_t nh_normal_equation_orbit(const nh_normal_equation *equation, size_t orbit);
+
 /* The equation at the n-th level that is tried (n = 0, 1, ..); the caller clears it by nh_normal_equation_clear. */
 nh_normal_equation *nh_normal_equation_of(nh_arena *arena, const nh_closed_shape *shape, const nh_plane *plane,
                                           const nh_known_integrals *known, size_t n);
-void nh_normal_equation_clear(nh_normal_equation *equation);
+void nh_normal_equation_clear(nh_normal_equation *equation); /* block is NULL then; their number stays */
 /* Have both the same blocks, with as many integrals?  Planes that a reflection of the system exchanges often do. */
 bool nh_normal_equation_equal(const nh_normal_equation *a, const nh_normal_equation *b);
 

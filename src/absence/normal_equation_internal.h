@@ -31,7 +31,7 @@ bool nh_normal_equation_curve(nh_normal_work *work, size_t n);
 /* The normal block, and covectors of integrals that reduce it. */
 bool nh_normal_equation_reduced(nh_normal_work *work);
 /* Rational coefficients, and blocks. */
-bool nh_normal_equation_rational(nh_normal_work *work);
+void nh_normal_equation_rational(nh_normal_work *work);
 /* false, with the obstacle noted. */
 bool nh_normal_equation_refuse(nh_normal_work *work, const char *why);
 

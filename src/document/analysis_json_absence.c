@@ -1,7 +1,4 @@
 /* The member `absence` of an analysis: what a checker needs to repeat the proof. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/memory.h"
 #include "document/absence_parts.h"
 #include "document/absence_words.h"
@@ -23,82 +20,15 @@ static void put_symbols(nh_json *to, const char *key, const nh_closed_shape *sha
     for (size_t i = 0; i < n; i++) nh_json_add_text(list, nh_name_of(shape->model->dag, symbol[i]));
 }
 
-/* ---- a certificate of Kovacic's algorithm ---- */
-
-typedef struct {
-    bool minus;
-    const char *digits; /* of the coefficient; length 0: it is 1 */
-    size_t length, power;
-} term;
-
-/* The next term of a polynomial in x as FLINT writes it, "3*x^2-x+7"; false after the last. */
-static bool next_term(const char **at, term *out)
-{
-    enum { decimal = 10 };
-    *out = (term){0};
-    for (; **at == ' ' || **at == '+' || **at == '-'; (*at)++) out->minus ^= **at == '-';
-    if (!**at) return false;
-    out->digits = *at;
-    out->length = strspn(*at, "0123456789");
-    const char *x = *at + out->length + ((*at)[out->length] == '*');
-    if (*x == 'x') out->power = x[1] == '^' ? strtoul(x + 2, NULL, decimal) : 1;
-    *at += strcspn(*at, " +-");
-    return true;
-}
-
-/* Its coefficients as texts, the constant first. */
-static void put_polynomial(nh_arena *arena, nh_json *to, const char *key, const char *text)
-{
-    nh_json *list = nh_json_put_array(to, key);
-    size_t degree = 0;
-    term t;
-    for (const char *at = text; next_term(&at, &t);)
-        if (t.power > degree) degree = t.power;
-    const char **coefficient = nh_arena_alloc(arena, (degree + 1) * sizeof *coefficient);
-    for (const char *at = text; next_term(&at, &t);)
-        coefficient[t.power] = nh_arena_printf(arena, "%s%.*s", t.minus ? "-" : "", t.length ? (int)t.length : 1,
-                                               t.length ? t.digits : "1");
-    for (size_t i = 0; i <= degree; i++) nh_json_add_text(list, coefficient[i] ? coefficient[i] : "0");
-}
-
-static void put_residues(nh_json *to, const char *key, size_t n, const ulong *value)
-{
-    nh_json *list = nh_json_put_array(to, key);
-    for (size_t i = 0; i < n; i++) nh_json_add_number(list, (double)value[i]);
-}
-
-static void put_signed(nh_json *to, const char *key, size_t n, const slong *value)
-{
-    nh_json *list = nh_json_put_array(to, key);
-    for (size_t i = 0; i < n; i++) nh_json_add_number(list, (double)value[i]);
-}
+/* ---- an attempt ---- */
 
 /* Where the group is known, and not where it is open. */
-static void put_certificate(nh_arena *arena, nh_json *to, const nh_kovacic *k)
+static void put_certificate(nh_json *to, const nh_kovacic *k)
 {
-    if (!k || (k->group != NH_GROUP_SL2 && k->group != NH_GROUP_TRIANGULAR)) {
-        nh_json_put_null(to, "certificate");
-        return;
-    }
-    nh_json *item = nh_json_put_object(to, "certificate");
-    put_polynomial(arena, item, "r_num", k->r_num);
-    put_polynomial(arena, item, "r_den", k->r_den);
-    nh_json_put_number(item, "prime", (double)k->prime);
-    put_residues(item, "poles", k->poles, k->pole);
-    put_residues(item, "roots", k->poles, k->root);
-    put_signed(item, "degrees", k->degrees, k->degree_of_p);
-    nh_json *list = nh_json_put_array(item, "invariants");
-    for (size_t i = 0; i < NH_KOVACIC_INVARIANTS; i++) {
-        const nh_kovacic_invariant *v = &k->invariant[i];
-        if (!v->possible) continue;
-        nh_json *entry = nh_json_add_object(list);
-        nh_json_put_number(entry, "m", v->m);
-        put_signed(entry, "lowest", k->poles, v->lowest);
-        nh_json_put_number(entry, "degree", (double)v->degree);
-    }
+    if (k && (k->group == NH_GROUP_SL2 || k->group == NH_GROUP_TRIANGULAR))
+        nh_kovacic_certificate(nh_json_put_object(to, "certificate"), k);
+    else nh_json_put_null(to, "certificate");
 }
-
-/* ---- an attempt ---- */
 
 static void put_monodromy(nh_json *to, const nh_normal_equation *e, const nh_monodromy *m)
 {
@@ -147,7 +77,7 @@ static void put_attempt(const nh_analysis *r, nh_json *list, const nh_absence_at
     else nh_json_put_null(item, "regular");
     nh_json_put_number(item, "orbit", (double)t->orbit);
     nh_json_put_text(item, "obstacle", t->obstacle ? t->obstacle : e->obstacle);
-    put_certificate(r->arena, item, t->kovacic);
+    put_certificate(item, t->kovacic);
     put_monodromy(item, e, t->monodromy);
     put_residue(item, t->residues);
 }

@@ -201,10 +201,12 @@ static void kovacic_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact(p, "Singular points", "%s, infinity included", k->regular ? "all regular" : "some irregular");
     if (k->prime) nh_pen_fact(p, "Prime", "%zu", (size_t)k->prime);
-    nh_pen_fact_begin(p, "Poles");
-    nh_pen_say(p, "modulo the prime ");
-    residue_list(p, k->poles, k->pole);
-    nh_pen_close(p, NH_PEN_FACT);
+    if (k->pole && k->poles) {
+        nh_pen_fact_begin(p, "Poles");
+        nh_pen_say(p, "modulo the prime ");
+        residue_list(p, k->poles, k->pole);
+        nh_pen_close(p, NH_PEN_FACT);
+    }
     nh_pen_fact_begin(p, "Exponents");
     nh_pen_say(p, "differences at the poles, then at infinity: ");
     for (size_t i = 0; i <= k->poles; i++) nh_pen_say(p, i ? ", %s" : "%s", k->exponent[i]);
@@ -287,28 +289,44 @@ static void darboux(nh_pen *p, const nh_darboux *d)
     nh_pen_close(p, NH_PEN_FACTS);
 }
 
+static void rest_row(nh_pen *p, nh_arena *arena, const nh_resonance *e)
+{
+    nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
+    nh_pen_open(p, NH_PEN_ROW_HEAD, NULL, NULL);
+    put_formulas(p, arena, e->point);
+    nh_pen_close(p, NH_PEN_ROW_HEAD);
+    nh_pen_cell(p, NH_PEN_CELL, "<%s>", spaced(arena, e->polynomial));
+    nh_pen_cell(p, NH_PEN_CELL, "%zu", e->letters);
+    nh_pen_cell(p, NH_PEN_CELL, "%zu", e->span);
+    nh_pen_cell(p, NH_PEN_CELL, "%zu", e->at_most);
+    if (e->prime) nh_pen_cell(p, NH_PEN_CELL, "%zu", (size_t)e->prime);
+    else nh_pen_cell(p, NH_PEN_CELL, "%s", "\u2013");
+    nh_pen_close(p, NH_PEN_ROW);
+}
+
+/* The same on a terminal. */
+static void rest_fact(nh_pen *p, nh_arena *arena, const nh_resonance *e)
+{
+    nh_pen_fact(p, e->point, "at most %zu; characteristic polynomial %s; of %zu eigenvalues, which span at least %zu%s",
+                e->at_most, spaced(arena, e->polynomial), e->letters, e->span,
+                e->prime ? nh_arena_printf(arena, " (modulo %zu)", (size_t)e->prime) : "");
+}
+
 static void rest(nh_pen *p, const nh_analysis *r)
 {
+    static const char title[] = "States of rest and steady motions: at most so many integrals are real-analytic near "
+                                "them, or quotients of such";
     const nh_absence *a = r->absence;
     if (!a->resonances) return;
-    nh_pen_table(p,
-                 "States of rest and steady motions: at most so many integrals are real-analytic near them, or "
-                 "quotients of such",
-                 "state|characteristic polynomial|#letters|#span of the eigenvalues|#at most|prime");
-    for (size_t i = 0; i < a->resonances; i++) {
-        const nh_resonance *e = a->resonance[i];
-        nh_pen_open(p, NH_PEN_ROW, NULL, NULL);
-        nh_pen_open(p, NH_PEN_ROW_HEAD, NULL, NULL);
-        put_formulas(p, r->arena, e->point);
-        nh_pen_close(p, NH_PEN_ROW_HEAD);
-        nh_pen_cell(p, NH_PEN_CELL, "<%s>", spaced(r->arena, e->polynomial));
-        nh_pen_cell(p, NH_PEN_CELL, "%zu", e->letters);
-        nh_pen_cell(p, NH_PEN_CELL, "%zu", e->span);
-        nh_pen_cell(p, NH_PEN_CELL, "%zu", e->at_most);
-        if (e->prime) nh_pen_cell(p, NH_PEN_CELL, "%zu", (size_t)e->prime);
-        else nh_pen_cell(p, NH_PEN_CELL, "%s", "\u2013");
-        nh_pen_close(p, NH_PEN_ROW);
+    if (p->ink->brief) {
+        nh_pen_heading(p, title);
+        nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+        for (size_t i = 0; i < a->resonances; i++) rest_fact(p, r->arena, a->resonance[i]);
+        nh_pen_close(p, NH_PEN_FACTS);
+        return;
     }
+    nh_pen_table(p, title, "state|characteristic polynomial|#letters|#span of the eigenvalues|#at most|prime");
+    for (size_t i = 0; i < a->resonances; i++) rest_row(p, r->arena, a->resonance[i]);
     nh_pen_table_end(p);
 }
 
