@@ -474,7 +474,7 @@ Test(absence_words, documents)
     char *plain = document(&x, NH_PEN_TEXT), *page = document(&x, NH_PEN_PAGE), *tex = document(&x, NH_PEN_LATEX);
     has(plain, "Other integrals\n");
     has(plain, "No other integral: every first integral of the equations of x, y, x', y'");
-    has(plain, "Normal form: u'' = r*u, r = (3*x^2 - x + 7)/(x^4 - 2)");
+    has(plain, "Normal form: u_xx = r*u, r = (3*x^2 - x + 7)/(x^4 - 2)");
     has(plain, "Only what costs little was tried");
     has(page, "<section id=\"absence\">");
     has(page, "href=\"#absence\"");

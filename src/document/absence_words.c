@@ -373,9 +373,20 @@ const char *nh_absence_words_short(const nh_analysis *r, size_t lines)
     const nh_resonance *rest = a && !a->contradiction ? best_rest(a) : NULL;
     if (!a || (!a->contradiction && a->verdict == NH_ABSENCE_SETTLED)) return NULL;
     if (rest && rest->at_most > a->known && !a->everything) rest = NULL; /* others may exist near it */
-    if (!a->contradiction && a->verdict == NH_ABSENCE_OPEN && rest) return rest_words(r, rest);
-    if (!a->contradiction && a->verdict == NH_ABSENCE_OPEN && !a->everything) return NULL;
+    bool open = !a->contradiction && a->verdict == NH_ABSENCE_OPEN;
+    if (open && rest && a->everything)
+        return nh_arena_printf(r->arena, "%s %s", short_words(r, all_words), rest_words(r, rest));
+    if (open && rest) return rest_words(r, rest);
+    if (open && !a->everything) return NULL;
     const char *words = short_words(r, all_words);
     for (int i = for_these_values; i <= unnamed_letters && lines_of(words) > lines; i++) words = short_words(r, i);
     return words;
+}
+
+/* Behind "Only the energy is conserved, as far as was looked". */
+const char *nh_absence_words_headline(const nh_analysis *r)
+{
+    const nh_absence *a = r->absence;
+    bool none_else = a && !a->contradiction && a->verdict == NH_ABSENCE_NONE_ELSE && !a->rational && !a->many_valued;
+    return none_else ? " and by a theorem (below)" : "";
 }

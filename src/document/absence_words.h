@@ -28,4 +28,8 @@ const char *nh_absence_words_sentence(const nh_analysis *result);
 const char *nh_absence_words_short(const nh_analysis *result, size_t lines);
 const char *nh_absence_words_plain(nh_arena *arena, const char *marked);
 
+/* " and by a theorem (below)" where every other integral that is meromorphic near some motions is excluded, else "":
+ * behind "as far as was looked". */
+const char *nh_absence_words_headline(const nh_analysis *analysis);
+
 #endif

@@ -80,7 +80,8 @@ void nh_analysis_answer_headline(const nh_analysis *r, nh_text *out)
         nh_text_addf(out, "The only conserved quantity that can exist was %s%s.", found, proved);
     else if (n == most) nh_text_addf(out, "All %zu conserved quantities that can exist were %s%s.", n, found, proved);
     else if (n == 1 && nh_current_is_energy(&list->found[0]))
-        nh_text_addf(out, "Only the energy is conserved, as far as was looked. At most %zu quantities can be.", most);
+        nh_text_addf(out, "Only the energy is conserved, as far as was looked%s. At most %zu quantities can be.",
+                     nh_absence_words_headline(r), most);
     else
         nh_text_addf(out, "%zu independent conserved quantit%s %s. At most %zu can exist.", n,
                      n == 1 ? "y was" : "ies were", found, most);

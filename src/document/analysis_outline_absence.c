@@ -87,9 +87,9 @@ static const char *spaced(nh_arena *arena, const char *polynomial)
 
 static const char *equation_text(nh_arena *arena, const nh_absence_attempt *t)
 {
-    const char *text = "u''";
+    const char *text = "u_xx"; /* dots would be derivatives by time */
     if (!t->p || !t->q) return NULL;
-    if (!is_none(t->p)) text = nh_arena_printf(arena, "%s + %s*u'", text, factor(arena, t->p));
+    if (!is_none(t->p)) text = nh_arena_printf(arena, "%s + %s*u_x", text, factor(arena, t->p));
     if (!is_none(t->q)) text = nh_arena_printf(arena, "%s + %s*u", text, factor(arena, t->q));
     return nh_arena_printf(arena, "%s = 0", text);
 }
@@ -105,6 +105,14 @@ static void size_cell(nh_pen *p, const nh_normal_equation *e)
     nh_pen_close(p, NH_PEN_CELL);
 }
 
+/* What the second engine says beside the first. */
+static const char *balls(nh_arena *arena, const nh_absence_attempt *t)
+{
+    const nh_monodromy *m = t->monodromy;
+    if (!m || !t->kovacic) return "";
+    return nh_arena_printf(arena, " (monodromy, in balls: moves in %zu of %zu)", m->rank, m->size);
+}
+
 static void attempt_row(nh_pen *p, const nh_analysis *r, const nh_absence_attempt *t)
 {
     const nh_normal_equation *e = t->equation;
@@ -117,8 +125,8 @@ static void attempt_row(nh_pen *p, const nh_analysis *r, const nh_absence_attemp
     if (e->curve) nh_pen_cell(p, NH_PEN_CELL, "<%s>", e->curve);
     else nh_pen_cell(p, NH_PEN_CELL, "%s", "");
     size_cell(p, e);
-    nh_pen_cell(p, NH_PEN_CELL, "%s%s%s", nh_absence_parts_group(r->arena, t), t->obstacle ? ": " : "",
-                t->obstacle ? t->obstacle : "");
+    nh_pen_cell(p, NH_PEN_CELL, "%s%s%s%s", nh_absence_parts_group(r->arena, t), balls(r->arena, t),
+                t->obstacle ? ": " : "", t->obstacle ? t->obstacle : "");
     nh_pen_close(p, NH_PEN_ROW);
     nh_free(level);
 }
@@ -134,7 +142,7 @@ static void attempt_fact(nh_pen *p, const nh_analysis *r, const nh_absence_attem
     else nh_pen_say(p, "normal equation of size %zu", e->dimension);
     if (!e->obstacle && e->blocks > 1)
         nh_pen_say(p, " in %zu blocks%s", e->blocks, e->triangular ? ", triangular" : "");
-    if (!e->obstacle) nh_pen_say(p, "; group: %s", nh_absence_parts_group(r->arena, t));
+    if (!e->obstacle) nh_pen_say(p, "; group: %s%s", nh_absence_parts_group(r->arena, t), balls(r->arena, t));
     if (t->obstacle) nh_pen_say(p, ", %s", t->obstacle);
     nh_pen_close(p, NH_PEN_FACT);
     nh_free(level);
@@ -196,7 +204,7 @@ static void kovacic_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     equation_facts(p, arena, t);
     nh_pen_fact_begin(p, "Normal form");
-    nh_pen_say(p, "<%s>, <%s>", "u'' = r*u",
+    nh_pen_say(p, "<%s>, <%s>", "u_xx = r*u",
                nh_arena_printf(arena, "r = (%s)/(%s)", spaced(arena, k->r_num), spaced(arena, k->r_den)));
     nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact(p, "Singular points", "%s, infinity included", k->regular ? "all regular" : "some irregular");
@@ -314,8 +322,7 @@ static void rest_fact(nh_pen *p, nh_arena *arena, const nh_resonance *e)
 
 static void rest(nh_pen *p, const nh_analysis *r)
 {
-    static const char title[] = "States of rest and steady motions: at most so many integrals are real-analytic near "
-                                "them, or quotients of such";
+    static const char title[] = "Integrals that are analytic near states of rest and steady motions";
     const nh_absence *a = r->absence;
     if (!a->resonances) return;
     if (p->ink->brief) {
