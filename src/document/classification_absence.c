@@ -96,7 +96,7 @@ static void show_currents(const nh_analysis *result, bool colour, nh_text *block
     enum { most_lines = 3 };
     const nh_absence *a = result->absence;
     for (size_t k = 0; k < a->known; k++) {
-        const nh_current *f = &result->list->found[a->known_current[k]];
+        const nh_current *f = nh_absence_current(result, a->known_current[k]);
         char *text = nh_print_string(result->question->model->dag,
                                      nh_current_signed(result, f, nh_classification_formula(result, f)));
         nh_screen_put(block, colour, 4, nh_current_label(result, f), text, most_lines, NULL);
@@ -175,7 +175,7 @@ static void put_currents(const nh_analysis *result, nh_json *to)
     nh_json *list = nh_json_put_array(to, "currents");
     const nh_absence *a = result ? result->absence : NULL;
     for (size_t k = 0; a && k < a->known; k++) {
-        const nh_current *f = &result->list->found[a->known_current[k]];
+        const nh_current *f = nh_absence_current(result, a->known_current[k]);
         char *text = nh_print_short(result->question->model->dag, nh_classification_formula(result, f),
                                     result->question->options.written);
         nh_json *item = nh_json_add_object(list);
