@@ -85,7 +85,8 @@ void nh_absence_words_put_known(const nh_absence_writer *w)
 static bool knows_energy(const nh_absence_writer *w)
 {
     bool any = false;
-    for (size_t i = 0; i < w->a->known; i++) any |= nh_current_is_energy(nh_absence_current(w->r, w->a->known_current[i]));
+    for (size_t i = 0; i < w->a->known; i++)
+        any |= nh_current_is_energy(nh_absence_current(w->r, w->a->known_current[i]));
     return any;
 }
 
