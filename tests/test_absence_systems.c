@@ -74,6 +74,16 @@ Test(absence_systems, integrals_that_are_withheld_are_not_excluded, PLAIN_ONLY)
     }
 }
 
+/* Without the program: KdV's potential with a constraint, and without it as a control. */
+Test(absence_systems, numbers_agree, PLAIN_ONLY)
+{
+    if (system("/usr/bin/python3 -c 'import numpy, sympy' 2>/dev/null") != 0) {
+        cr_log_warn("skipped: there is no Python with NumPy and SymPy (Debian: python3-numpy python3-sympy)");
+        return;
+    }
+    cr_expect_eq(system(sweep_whole() ? "/usr/bin/python3 tests/numerical_monodromy.py >/dev/null" : "/usr/bin/python3 tests/numerical_monodromy.py 'KdV with z' >/dev/null"), 0);
+}
+
 /* classify --of absence: the values of Henon and Heiles' family that are found, excluded and open. */
 Test(absence_systems, classify_answers_from_both_sides)
 {
