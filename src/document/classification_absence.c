@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "document/absence_parts.h"
 #include "document/classification_internal.h"
 #include "document/current_words.h"
 #include "document/screen.h"
@@ -12,14 +13,6 @@
 
 static const char *const side_word[] = {
     [NH_CLASSIFIED_FOUND] = "found", [NH_CLASSIFIED_EXCLUDED] = "excluded", [NH_CLASSIFIED_UNDECIDED] = "undecided"};
-
-static const char *verdict_word(nh_absence_verdict verdict)
-{
-    static const char *const words[] = {
-        [NH_ABSENCE_OPEN] = "open",       [NH_ABSENCE_NONE_ELSE] = "none_else", [NH_ABSENCE_DEPENDENT] = "dependent",
-        [NH_ABSENCE_AT_MOST] = "at_most", [NH_ABSENCE_LIOUVILLE] = "liouville", [NH_ABSENCE_SETTLED] = "settled"};
-    return words[verdict];
-}
 
 /* The motions near which the theorem holds; NULL: there is none. */
 static const char *motion_of(const nh_classified_absence *x, const nh_absence *a)
@@ -226,7 +219,7 @@ static void put_value(const nh_classified_absence *x, const nh_classified_value 
     nh_json_put_text(item, "value", v->text);
     nh_json_put_bool(item, "special", v->special);
     nh_json_put_text(item, "side", side_word[v->side]);
-    nh_json_put_text(item, "verdict", a ? verdict_word(a->verdict) : NULL);
+    nh_json_put_text(item, "verdict", a ? nh_absence_parts_verdict(a) : NULL);
     nh_json_put_number(item, "integrals", a ? (double)a->known : NAN);
     nh_json_put_text(item, "motion", a ? motion_of(x, a) : NULL);
     nh_json_put_text(item, "class",
