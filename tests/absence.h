@@ -11,6 +11,7 @@
 #include "absence_systems.h"
 #include "base/clock.h"
 #include "commands/analyze.h"
+#include "graph/node.h"
 #include "graph/print.h"
 #include "scratch.h"
 
@@ -94,14 +95,29 @@ static inline const nh_absence_attempt *absence_shown(const nh_absence *a)
 
 /* ---- integrals that exist ---- */
 
-/* A text with functions that are not meromorphic, or may not be: such an integral may exist beside any theorem. */
-static inline bool absence_many_valued(const char *text)
+/* Functions that are not meromorphic, or may not be, or roots that the equations do not contain: such an integral may exist beside any
+ * theorem. */
+static inline bool absence_many_valued(const nh_closed_shape *shape, nh_ex phi)
 {
-    static const char *const words[] = {"log(", "atan", "asin", "acos", "elliptic", "legendre", "hyp", "bessel", "airy", "riemann",
-                                        "gauss", "exp(", "sqrt(", "^(", "abs(", "acosh", "e^"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strstr(text, words[i])) return true;
-    return false;
+    static const char *const words[] = {"log(", "atan", "asin", "acos", "elliptic", "legendre", "hyp", "bessel", "airy", "riemann", "gauss",
+                                        "exp(", "abs(", "acosh", "e^", "/3)", "/4)", "/5)", "/6)"};
+    nh_dag *dag = shape->model->dag;
+    char *text = nh_print_string(dag, phi);
+    bool many = false;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) many |= strstr(text, words[i]) && (words[i][0] != '/' || strstr(text, "^("));
+    nh_free(text);
+    NH_LIST(own);
+    size_t roots = nh_radicands_in(dag, phi, &own);
+    for (size_t k = 0; k < roots; k++) {
+        bool letter = false;
+        for (size_t i = 0; i < shape->count; i++) {
+            NH_LIST(list);
+            size_t n = nh_radicands_in(dag, shape->rate[i], &list);
+            for (size_t j = 0; j < n; j++) letter |= list[j] == own[k];
+        }
+        many |= !letter;
+    }
+    return many;
 }
 
 /* Independent integrals among those found that the theorem speaks of: of letters of the shape only, in closed form, single-valued. */
@@ -118,9 +134,7 @@ static inline size_t absence_count(const nh_analysis *r)
         const nh_current *f = &r->list->found[k];
         bool counts = f->proof.proved && !f->series && !f->local && !nh_depends(model->dag, f->phi, r->question->system->t);
         for (size_t i = 0; i < a->shape->left; i++) counts = counts && !nh_depends(model->dag, f->phi, a->shape->left_out[i]);
-        char *text = nh_print_string(model->dag, f->phi);
-        if (counts && !absence_many_valued(text)) phi[n++] = f->phi;
-        nh_free(text);
+        if (counts && !absence_many_valued(a->shape, f->phi)) phi[n++] = f->phi;
     }
     if (n) nh_independence_test(model, generic, n, phi, NULL, r->question->options.sure, r->question->options.doubt, kind, NULL);
     for (size_t k = 0; k < n; k++) count += kind[k] == NH_INDEPENDENT;
@@ -128,6 +142,26 @@ static inline size_t absence_count(const nh_analysis *r)
     nh_free(phi);
     nh_points_free(generic);
     return count;
+}
+
+/* The same decision when only the energy is told to the engines (the first integral where there is none): those that are withheld
+ * exist, so that they must not be excluded.  True: they are not. */
+static inline bool absence_without(nh_analysis *r, char *why, size_t size)
+{
+    const nh_current_list *all = r->list;
+    size_t exist = absence_count(r), kept = 0;
+    for (size_t k = 0; k < all->count; k++)
+        if (all->found[k].energy) kept = k;
+    nh_current_list few = *all;
+    few.found = all->found + kept;
+    few.count = all->count ? 1 : 0;
+    few.furthers = 0;
+    r->list = &few;
+    nh_absence_find(r, true);
+    r->list = all;
+    bool good = absence_bound(r->absence) >= exist;
+    snprintf(why, size, "at most %zu by %s, and %zu exist", absence_bound(r->absence), absence_word(r->absence), exist);
+    return good;
 }
 
 #endif

@@ -170,7 +170,9 @@ static void cell(const family *f, const char *a, const char *b, family_sums *sum
     sum->news += found && !known;
     sum->missed += known && !found;
     sum->seconds += absence_seconds;
-    if (!excluded && !found) count_reason(&sum->why, x->obstacle ? x->obstacle : "no reason");
+    char bound[64];
+    snprintf(bound, sizeof bound, "at most %zu integrals, by a theorem", absence_bound(x));
+    if (!excluded && !found) count_reason(&sum->why, x->obstacle ? x->obstacle : bound);
     nh_analysis_free(r);
 }
 

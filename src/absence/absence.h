@@ -9,6 +9,7 @@
 #include "absence/normal_equation.h"
 #include "absence/residues.h"
 #include "absence/resonance.h"
+#include "search/analysis.h"
 
 /* One plane at one level: what its engines say. */
 typedef struct {
@@ -40,7 +41,7 @@ typedef struct nh_absence {
     bool everything; /* all planes and engines were asked for */
     const nh_closed_shape *shape;
     size_t known;          /* independent integrals of the shape that are found and single-valued */
-    size_t *known_current; /* their indices in the analysis's list */
+    size_t *known_current; /* their indices (nh_absence_current) */
     size_t many_valued;    /* found, but not used: many-valued, or in time */
     size_t at_most;        /* independent integrals of the class */
     bool rational;         /* the class: rational; else meromorphic */
@@ -62,5 +63,7 @@ typedef struct nh_absence {
  * what costs little, never a clock. */
 struct nh_analysis;
 void nh_absence_find(struct nh_analysis *analysis, bool everything);
+/* The current of this index: first those of the list, then functions of them that are polynomial in the velocities. */
+const nh_current *nh_absence_current(const nh_analysis *analysis, size_t index);
 
 #endif

@@ -4,7 +4,19 @@
 
 #include "absence/absence_internal.h"
 #include "graph/function.h"
+#include "exact/normal.h"
+#include "graph/dag.h"
+#include "graph/diff.h"
+#include "graph/measure.h"
 #include "integrals/gradient_rank.h"
+
+enum { longest_zero = 5000 /* terms of a normal form */ };
+
+const nh_current *nh_absence_current(const nh_analysis *analysis, size_t index)
+{
+    const nh_current_list *list = analysis->list;
+    return index < list->count ? &list->found[index] : &list->further[index - list->count].current;
+}
 
 /* sin, cos, exp and the like have one value everywhere; the others, a logarithm say, have many. */
 static bool one_value(nh_function f)
@@ -83,14 +95,31 @@ static bool left_out(const nh_closed_shape *shape, nh_ex e)
     return nh_depends(d, e, shape->model->system->t);
 }
 
-/* Exact, proved, with letters of the shape only; many_valued counts those that are not of one value. */
-static bool usable(const nh_analysis *analysis, nh_absence *absence, size_t roots, const nh_ex *root, size_t k)
+/* Without the coordinates that are left out, where they stand in e and cancel, as cos(p)^2 + sin(p)^2. */
+static nh_ex without_left_out(const nh_closed_shape *shape, nh_ex e)
 {
-    const nh_current *current = &analysis->list->found[k];
+    nh_dag *d = shape->model->dag;
+    const nh_ex zero = nh_int(d, 0);
+    for (size_t i = 0; i < shape->left; i++) {
+        if (!nh_depends(d, e, shape->left_out[i])) continue;
+        nh_ex slope = nh_diff(d, e, shape->left_out[i]), there = nh_substitute(d, e, 1, &shape->left_out[i], &zero);
+        if (!nh_is_exact(d, slope) || nh_normal_is_zero(d, slope, longest_zero) != NH_ZERO) return e;
+        if (nh_is_exact(d, there)) e = there; /* else it has no value there */
+    }
+    return e;
+}
+
+/* Exact, proved, with letters of the shape only; many_valued counts those of the list that are not of one value.  *e is
+ * the integral. */
+static bool usable(const nh_analysis *analysis, nh_absence *absence, size_t roots, const nh_ex *root, size_t k,
+                   nh_ex *e)
+{
+    const nh_current *current = nh_absence_current(analysis, k);
     if (!current->proof.proved || current->proof.sided || current->series || current->fitted) return false;
-    if (left_out(absence->shape, current->phi)) return false;
-    if (single_valued(absence->shape->model, current->phi, roots, root)) return true;
-    absence->many_valued++;
+    *e = without_left_out(absence->shape, current->phi);
+    if (left_out(absence->shape, *e)) return false;
+    if (single_valued(absence->shape->model, *e, roots, root)) return true;
+    absence->many_valued += k < analysis->list->count;
     return false;
 }
 
@@ -98,7 +127,7 @@ nh_known_integrals nh_absence_known(const nh_analysis *analysis, nh_absence *abs
 {
     nh_arena *arena = analysis->arena;
     const nh_model *model = absence->shape->model;
-    size_t n = analysis->list->count, count = 0, roots;
+    size_t n = analysis->list->count + analysis->list->furthers, count = 0, roots;
     nh_ex *root, *integral = nh_arena_alloc(arena, (n + 1) * sizeof *integral);
     bool *generic = nh_arena_alloc(arena, n + 1);
     nh_known_integrals known = {.integral = integral, .generic = generic};
@@ -106,14 +135,15 @@ nh_known_integrals nh_absence_known(const nh_analysis *analysis, nh_absence *abs
     absence->known_current = nh_arena_alloc(arena, (n + 1) * sizeof *absence->known_current);
     size_t energy = SIZE_MAX;
     for (size_t k = 0; k < n; k++) {
-        if (!usable(analysis, absence, roots, root, k)) continue;
+        const nh_current *current = nh_absence_current(analysis, k);
+        if (!usable(analysis, absence, roots, root, k, &integral[count])) continue;
         /* levels are told of the energy itself, and not of a multiple of it */
-        integral[count] = analysis->list->found[k].energy ? model->E : analysis->list->found[k].phi;
+        if (current->energy) integral[count] = model->E;
         /* those that a ball proves to be independent of the ones before */
         nh_rank rank = nh_rank_decide(model, count, integral, analysis->question->options.doubt);
         if (rank.answer != NH_RANK_GROWS || !rank.proved) continue;
-        generic[count] = analysis->list->found[k].proof.all_parameters;
-        if (analysis->list->found[k].energy) energy = count;
+        generic[count] = current->proof.all_parameters;
+        if (current->energy) energy = count;
         absence->known_current[count++] = k;
     }
     absence->known = known.count = count;

@@ -238,11 +238,11 @@ static void decide_for_almost_all(nh_classified_absence *x, const nh_classify_re
     for (size_t k = 0; k < x->values && !x->letter && !nh_interrupted(); k++) {
         nh_error none;
         nh_error_clear(&none);
-        if (x->value[k].side != NH_CLASSIFIED_EXCLUDED) continue;
+        if (x->value[k].side != NH_CLASSIFIED_EXCLUDED || x->value[k].result->absence->rational) continue;
         x->letter = decide(x, q, &x->value[k], false, &none);
         if (!x->letter) return;
         const nh_absence *a = x->letter->absence;
-        x->generic = a->generic && bound_of(a) <= x->fewest;
+        x->generic = a->generic && !a->rational && bound_of(a) <= x->fewest;
         x->generic_at = x->generic ? x->value[k].text : NULL;
     }
 }

@@ -108,6 +108,6 @@ size_t nh_absence_parts_known(const nh_analysis *r, const char ***name)
 {
     const nh_absence *a = r->absence;
     *name = nh_arena_alloc(r->arena, (a->known + 1) * sizeof **name);
-    for (size_t i = 0; i < a->known; i++) (*name)[i] = r->list->found[a->known_current[i]].name;
+    for (size_t i = 0; i < a->known; i++) (*name)[i] = nh_absence_current(r, a->known_current[i])->name;
     return a->known;
 }

@@ -67,7 +67,9 @@ void nh_absence_words_put_known(const nh_absence_writer *w)
 {
     const char **name;
     size_t n = nh_absence_parts_known(w->r, &name);
-    if (n == w->r->list->independent) {
+    bool listed = true; /* those found, not functions of them */
+    for (size_t i = 0; i < n; i++) listed = listed && w->a->known_current[i] < w->r->list->count;
+    if (listed && n == w->r->list->independent) {
         nh_text_add(w->out, !w->brief ? "those found" : n == 1 ? "the one above" : "those above");
         return;
     }
@@ -83,7 +85,8 @@ void nh_absence_words_put_known(const nh_absence_writer *w)
 static bool knows_energy(const nh_absence_writer *w)
 {
     bool any = false;
-    for (size_t i = 0; i < w->a->known; i++) any |= nh_current_is_energy(&w->r->list->found[w->a->known_current[i]]);
+    for (size_t i = 0; i < w->a->known; i++)
+        any |= nh_current_is_energy(nh_absence_current(w->r, w->a->known_current[i]));
     return any;
 }
 

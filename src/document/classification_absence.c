@@ -2,23 +2,17 @@
 #include <math.h>
 #include <string.h>
 
+#include "document/absence_parts.h"
 #include "document/classification_internal.h"
 #include "document/current_words.h"
 #include "document/screen.h"
+#include "graph/node.h"
 #include "graph/print.h"
 
 /* ---- words ---- */
 
 static const char *const side_word[] = {
     [NH_CLASSIFIED_FOUND] = "found", [NH_CLASSIFIED_EXCLUDED] = "excluded", [NH_CLASSIFIED_UNDECIDED] = "undecided"};
-
-static const char *verdict_word(nh_absence_verdict verdict)
-{
-    static const char *const words[] = {
-        [NH_ABSENCE_OPEN] = "open",       [NH_ABSENCE_NONE_ELSE] = "none_else", [NH_ABSENCE_DEPENDENT] = "dependent",
-        [NH_ABSENCE_AT_MOST] = "at_most", [NH_ABSENCE_LIOUVILLE] = "liouville", [NH_ABSENCE_SETTLED] = "settled"};
-    return words[verdict];
-}
 
 /* The motions near which the theorem holds; NULL: there is none. */
 static const char *motion_of(const nh_classified_absence *x, const nh_absence *a)
@@ -28,11 +22,13 @@ static const char *motion_of(const nh_classified_absence *x, const nh_absence *a
     return nh_arena_printf(x->arena, "%s, %s", e->plane->words, e->curve);
 }
 
-/* Values that are excluded are listed together, and undecided ones with the same reason. */
+/* Values that are excluded for the same class of integrals are listed together, and undecided ones with the same
+ * reason. */
 static bool together(const nh_classified_value *a, const nh_classified_value *b)
 {
     if (a->side != b->side || a->side == NH_CLASSIFIED_FOUND) return false;
-    return a->side == NH_CLASSIFIED_EXCLUDED || a->why == b->why || (a->why && b->why && !strcmp(a->why, b->why));
+    if (a->side == NH_CLASSIFIED_EXCLUDED) return a->result->absence->rational == b->result->absence->rational;
+    return a->why == b->why || (a->why && b->why && !strcmp(a->why, b->why));
 }
 
 /* "mu = 3/2, 5/4": the value, and all later ones that are listed with it. */
@@ -63,8 +59,9 @@ static const char *statement(const nh_classified_absence *x, const nh_classified
         return nh_arena_printf(x->arena, "found: %zu %s instead of %zu", known, integrals(known), x->fewest);
     }
     if (v->side == NH_CLASSIFIED_EXCLUDED)
-        return nh_arena_printf(x->arena, "excluded (theorem): all depend on the %zu %s found", x->fewest,
-                               integrals(x->fewest));
+        return nh_arena_printf(x->arena, "excluded (theorem): %s depends on the %zu %s found",
+                               v->result->absence->rational ? "every rational one" : "every one of the class below",
+                               x->fewest, integrals(x->fewest));
     return nh_arena_printf(x->arena, "undecided%s%s", v->why ? ": " : "", v->why ? v->why : "");
 }
 
@@ -75,6 +72,22 @@ static const char *almost_all(const nh_classified_absence *x)
                                "For all other %s outside countably many: excluded (theorem, shown at %s = %s).",
                                x->over, x->over, x->generic_at);
     return nh_arena_printf(x->arena, "Of other %s nothing is said.", x->over);
+}
+
+/* Which integrals the theorem speaks of; NULL where nothing is excluded. */
+static const char *class_of(const nh_classified_absence *x)
+{
+    const nh_closed_shape *shape = NULL;
+    const char *left = "";
+    for (size_t k = 0; k < x->values && !shape; k++)
+        if (x->value[k].side == NH_CLASSIFIED_EXCLUDED) shape = x->value[k].result->absence->shape;
+    if (!shape) return NULL;
+    for (size_t i = 0; i < shape->left; i++)
+        left = nh_arena_printf(x->arena, "%s%s, ", left, nh_name_of(shape->model->dag, shape->left_out[i]));
+    return nh_arena_printf(x->arena,
+                           "Of integrals without %st: those that are meromorphic near certain complex motions, and "
+                           "periodic in angles. Others, as smooth ones, are not excluded.",
+                           left);
 }
 
 static const char *headline(const nh_classified_absence *x)
@@ -96,7 +109,7 @@ static void show_currents(const nh_analysis *result, bool colour, nh_text *block
     enum { most_lines = 3 };
     const nh_absence *a = result->absence;
     for (size_t k = 0; k < a->known; k++) {
-        const nh_current *f = &result->list->found[a->known_current[k]];
+        const nh_current *f = nh_absence_current(result, a->known_current[k]);
         char *text = nh_print_string(result->question->model->dag,
                                      nh_current_signed(result, f, nh_classification_formula(result, f)));
         nh_screen_put(block, colour, 4, nh_current_label(result, f), text, most_lines, NULL);
@@ -126,6 +139,7 @@ static void write_screen(const nh_classified_absence *x, bool colour, nh_text *o
     if (left) nh_text_addf(out, "  %zu more lines: --details\n", left);
     nh_text_add(out, "\n");
     nh_screen_paragraph(0, 0, almost_all(x), out);
+    if (class_of(x)) nh_screen_paragraph(0, 0, class_of(x), out);
     nh_screen_more(out, "of each value its motions, engines and reasons", NULL);
 }
 
@@ -161,6 +175,7 @@ void nh_classification_absence_write(const nh_classified_absence *x, const nh_ru
     for (size_t k = 0; k < x->values; k++) write_row(x, p, &x->value[k]);
     nh_pen_table_end(p);
     nh_pen_words(p, "%s", almost_all(x));
+    if (class_of(x)) nh_pen_words(p, "%s", class_of(x));
     if (x->no_special) nh_pen_words(p, "Special values were not searched for: %s.", x->no_special);
     if (any) nh_pen_system(p, any->question->model, NULL);
     nh_pen_glossary(p, "current, proved");
@@ -175,7 +190,7 @@ static void put_currents(const nh_analysis *result, nh_json *to)
     nh_json *list = nh_json_put_array(to, "currents");
     const nh_absence *a = result ? result->absence : NULL;
     for (size_t k = 0; a && k < a->known; k++) {
-        const nh_current *f = &result->list->found[a->known_current[k]];
+        const nh_current *f = nh_absence_current(result, a->known_current[k]);
         char *text = nh_print_short(result->question->model->dag, nh_classification_formula(result, f),
                                     result->question->options.written);
         nh_json *item = nh_json_add_object(list);
@@ -204,7 +219,7 @@ static void put_value(const nh_classified_absence *x, const nh_classified_value 
     nh_json_put_text(item, "value", v->text);
     nh_json_put_bool(item, "special", v->special);
     nh_json_put_text(item, "side", side_word[v->side]);
-    nh_json_put_text(item, "verdict", a ? verdict_word(a->verdict) : NULL);
+    nh_json_put_text(item, "verdict", a ? nh_absence_parts_verdict(a) : NULL);
     nh_json_put_number(item, "integrals", a ? (double)a->known : NAN);
     nh_json_put_text(item, "motion", a ? motion_of(x, a) : NULL);
     nh_json_put_text(item, "class",
@@ -233,6 +248,7 @@ char *nh_classification_absence_json(const nh_classified_absence *x, const nh_ru
     for (size_t k = 0; k < x->values; k++) put_value(x, &x->value[k], list);
     for (size_t side = 0; side < sizeof side_word / sizeof *side_word; side++)
         nh_json_put_number(root, side_word[side], (double)nh_classified_absence_count(x, (nh_classified_side)side));
+    nh_json_put_text(root, "speaks_of", class_of(x));
     nh_json_put_bool(root, "almost_all_excluded", x->generic);
     nh_json_put_text(root, "shown_at", x->generic_at);
     nh_json_put_text(root, "no_special_values_because", x->no_special);
