@@ -9,10 +9,12 @@
 
 /* ---- the table ---- */
 
-static const struct { long k, a, a_den, b, b_den, m, n; } rows[] = {
-    {3, -1, 24, 1, 6, 1, 3}, {3, -1, 24, 3, 32, 1, 4}, {3, -1, 24, 3, 50, 1, 5}, {3, -1, 24, 3, 50, 2, 5},
-    {-3, 25, 24, -1, 6, 1, 3}, {-3, 25, 24, -3, 32, 1, 4}, {-3, 25, 24, -3, 50, 1, 5}, {-3, 25, 24, -3, 50, 2, 5},
-    {4, -1, 8, 2, 9, 1, 3}, {-4, 9, 8, -2, 9, 1, 3}, {5, -9, 40, 5, 18, 1, 3}, {5, -9, 40, 1, 10, 2, 5},
+static const struct {
+    long k, a, a_den, b, b_den, m, n;
+} rows[] = {
+    {3, -1, 24, 1, 6, 1, 3},    {3, -1, 24, 3, 32, 1, 4},   {3, -1, 24, 3, 50, 1, 5},   {3, -1, 24, 3, 50, 2, 5},
+    {-3, 25, 24, -1, 6, 1, 3},  {-3, 25, 24, -3, 32, 1, 4}, {-3, 25, 24, -3, 50, 1, 5}, {-3, 25, 24, -3, 50, 2, 5},
+    {4, -1, 8, 2, 9, 1, 3},     {-4, 9, 8, -2, 9, 1, 3},    {5, -9, 40, 5, 18, 1, 3},   {5, -9, 40, 1, 10, 2, 5},
     {-5, 49, 40, -5, 18, 1, 3}, {-5, 49, 40, -1, 10, 2, 5},
 };
 enum { all_rows = sizeof rows / sizeof *rows, most_j = 30, most_values = 61 * 16 };
@@ -110,7 +112,8 @@ static void expect(const potential *p, const nh_darboux *out)
     cr_expect_eq(out->degree, p->degree, "%s: degree %ld", p->V, out->degree);
     cr_expect_eq(out->points, p->points, "%s: %zu lines", p->V, out->points);
     cr_expect_eq(out->undecided, 0U, "%s: %zu undecided", p->V, out->undecided);
-    cr_expect_eq(out->refuted, p->point != NULL, "%s: %s with %s", p->V, out->refutation.point, out->refutation.eigenvalue);
+    cr_expect_eq(out->refuted, p->point != NULL, "%s: %s with %s", p->V, out->refutation.point,
+                 out->refutation.eigenvalue);
     cr_expect_eq(out->refuted, out->obstacle == NULL, "%s: %s", p->V, out->obstacle);
     if (!p->point || !out->refuted) return;
     cr_expect(!strcmp(out->refutation.point, p->point), "%s: %s", p->V, out->refutation.point);
@@ -132,9 +135,9 @@ Test(darboux, two_coordinates)
         {"x^4 + 12*x^2*y^2 + 16*y^4", 4, 4, NULL, NULL},
         {"x^4 + 3*x^2*y^2 + 2*y^4", 4, 4, "c = (1, 0)", "3/2"},
         {"x^4 + x^2*y^2 + y^4", 4, 4, "c = (1, 0)", "1/2"},
-        {"x^4 + y^4 + 17", 4, 4, NULL, NULL},              /* a constant does no harm */
-        {"x^2*y^2", 4, 2, "c = (1, 1)", "-1"},             /* on the axes the slope vanishes */
-        {"(x^2 + y^2)^2", 4, 4, NULL, NULL},               /* every direction is a line: only simple ones are tried */
+        {"x^4 + y^4 + 17", 4, 4, NULL, NULL},  /* a constant does no harm */
+        {"x^2*y^2", 4, 2, "c = (1, 1)", "-1"}, /* on the axes the slope vanishes */
+        {"(x^2 + y^2)^2", 4, 4, NULL, NULL},   /* every direction is a line: only simple ones are tried */
         {"x^3 + 3*x^2*y + y^3 + x*y^2", 3, 3, "c = (1, s), s^3 + 3*s^2 + s - 3 = 0", "14/57*s^2 - 2/19*s + 2/57"},
         {"-1/sqrt(x^2 + y^2)", -1, 4, NULL, NULL},
         {"-sqrt(x^2 + y^2)^3", 3, 4, NULL, NULL},
@@ -155,12 +158,23 @@ Test(darboux, two_coordinates)
  * others. */
 Test(darboux, masses)
 {
-    static const struct { const char *X, *Y, *kinetic; } list[] = {
-        {"x", "y", "(x'^2 + y'^2)/2"}, {"(2*x)", "(3*y)", "2*x'^2 + 9/2*y'^2"}, {"(x + y)", "y", "((x' + y')^2 + y'^2)/2"}, {"(x - 3*y)", "(2*x + y)", "((x' - 3*y')^2 + (2*x' + y')^2)/2"},
+    static const struct {
+        const char *X, *Y, *kinetic;
+    } list[] = {
+        {"x", "y", "(x'^2 + y'^2)/2"},
+        {"(2*x)", "(3*y)", "2*x'^2 + 9/2*y'^2"},
+        {"(x + y)", "y", "((x' + y')^2 + y'^2)/2"},
+        {"(x - 3*y)", "(2*x + y)", "((x' - 3*y')^2 + (2*x' + y')^2)/2"},
     };
-    static const struct { const char *form; size_t points; bool refuted; } potentials[] = {
-        {"X^2*Y - Y^3/3", 3, true}, {"X^2*Y + 2*Y^3", 3, false}, {"X^2*Y + 16/3*Y^3", 3, false}, {"X^2*Y + Y^3", 3, true}, {"X^2*Y + 2/3*Y^3", 1, false},
-        {"X^4 + 6*X^2*Y^2 + 8*Y^4", 4, false}, {"X^4 + 3*X^2*Y^2 + 2*Y^4", 4, true}, {"X^2*Y^2", 2, true},
+    static const struct {
+        const char *form;
+        size_t points;
+        bool refuted;
+    } potentials[] = {
+        {"X^2*Y - Y^3/3", 3, true},           {"X^2*Y + 2*Y^3", 3, false},
+        {"X^2*Y + 16/3*Y^3", 3, false},       {"X^2*Y + Y^3", 3, true},
+        {"X^2*Y + 2/3*Y^3", 1, false},        {"X^4 + 6*X^2*Y^2 + 8*Y^4", 4, false},
+        {"X^4 + 3*X^2*Y^2 + 2*Y^4", 4, true}, {"X^2*Y^2", 2, true},
     };
     for (size_t i = 0; i < sizeof potentials / sizeof *potentials; i++)
         for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
@@ -171,7 +185,8 @@ Test(darboux, masses)
                 if (*c == 'X' || *c == 'Y') nh_text_add(&V, *c == 'X' ? list[k].X : list[k].Y);
                 else nh_text_addf(&V, "%c", *c);
             nh_darboux *out = darboux_of(arena, false, list[k].kinetic, nh_text_string(&V), "");
-            cr_expect(out->applies && out->refuted == potentials[i].refuted, "%s: %s, %s", nh_text_string(&V), out->refutation.point, out->refutation.eigenvalue);
+            cr_expect(out->applies && out->refuted == potentials[i].refuted, "%s: %s, %s", nh_text_string(&V),
+                      out->refutation.point, out->refutation.eigenvalue);
             cr_expect_eq(out->points, potentials[i].points, "%s: %zu lines", nh_text_string(&V), out->points);
             nh_text_clear(&V);
             nh_arena_free(arena);
@@ -207,11 +222,15 @@ Test(darboux, three_coordinates)
 Test(darboux, four_coordinates)
 {
     nh_arena *arena = nh_arena_create();
-    mechanics x = mechanics_of_text("name: four\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}, {name: s, type: length}]\n"
-                                    "lagrangian: (x'^2 + y'^2 + z'^2 + s'^2)/2 - s*(x^2 + 2*x*y + 2*y^2 + 2*y*z + 4*z^2) + s^3/3\n", NH_CHART_AUTO);
+    mechanics x = mechanics_of_text(
+        "name: four\ncoordinates: [{name: x, type: length}, {name: y, type: length}, {name: z, type: length}, {name: "
+        "s, type: length}]\n"
+        "lagrangian: (x'^2 + y'^2 + z'^2 + s'^2)/2 - s*(x^2 + 2*x*y + 2*y^2 + 2*y*z + 4*z^2) + s^3/3\n",
+        NH_CHART_AUTO);
     nh_closed_shape shape = {.model = x.model};
     nh_darboux *out = nh_darboux_of(arena, &shape);
-    const potential cubic = {"four coordinates", 3, 1, "c = (0, 0, 0, 1)", "lambda, lambda^3 + 14*lambda^2 + 48*lambda + 24 = 0"};
+    const potential cubic = {"four coordinates", 3, 1, "c = (0, 0, 0, 1)",
+                             "lambda, lambda^3 + 14*lambda^2 + 48*lambda + 24 = 0"};
     expect(&cubic, out);
     mechanics_clear(&x);
     nh_arena_free(arena);
@@ -220,7 +239,10 @@ Test(darboux, four_coordinates)
 /* Parameters at their values: decimals are ratios.  What the theorem does not speak of. */
 Test(darboux, where_it_applies)
 {
-    static const struct { const char *kinetic, *V, *rest; bool applies; } list[] = {
+    static const struct {
+        const char *kinetic, *V, *rest;
+        bool applies;
+    } list[] = {
         {"(x'^2 + y'^2)/2", "x^4 + k*x^2*y^2 + y^4", "parameters: [{name: k, value: 0.3}]\n", true},
         {"(x'^2 + y'^2)/2", "x^2 + 2*y^2", "", false},
         {"(x'^2 + y'^2)/2", "1/(x^2 + 2*y^2)", "", false},
@@ -254,9 +276,14 @@ Test(darboux, where_it_applies)
 Test(darboux, three_bodies)
 {
     static const char *const masses[] = {"a", "b", "c"};
-    static const struct { double mass[3]; size_t points; const char *eigenvalue; } list[] = {
+    static const struct {
+        double mass[3];
+        size_t points;
+        const char *eigenvalue;
+    } list[] = {
         {{1.3, 0.8, 1.9}, 1, "3*sqrt(91)/80 - 1/2"}, /* sigma = 503/1600 */
-        {{1, 1, 1}, 7, "-1/2"}, {{1, 2, 3}, 1, "sqrt(3)/4 - 1/2"},
+        {{1, 1, 1}, 7, "-1/2"},
+        {{1, 2, 3}, 1, "sqrt(3)/4 - 1/2"},
     };
     for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
         nh_setting setting[3];
@@ -279,16 +306,26 @@ Test(darboux, three_bodies)
  * is left are lines. */
 Test(darboux, three_bodies_in_space)
 {
-    static const struct { const char *m; bool triangle; } list[] = {{"2", true}, {"3", false}};
+    static const struct {
+        const char *m;
+        bool triangle;
+    } list[] = {{"2", true}, {"3", false}};
     for (size_t k = 0; k < 2; k++) {
         nh_arena *arena = nh_arena_create();
         nh_text text;
         nh_text_init(&text);
         nh_text_add(&text, "name: bodies\ncoordinates:\n");
         for (int i = 0; i < 9; i++) nh_text_addf(&text, "  - {name: %c%d, type: length}\n", "xyz"[i % 3], 1 + i / 3);
-        nh_text_addf(&text, "lagrangian: (x1'^2 + y1'^2 + z1'^2)/2 + (2*x2'^2 + %s*y2'^2 + 2*z2'^2)/2 + (x3'^2 + y3'^2 + z3'^2)*5/2", list[k].m);
+        nh_text_addf(
+            &text,
+            "lagrangian: (x1'^2 + y1'^2 + z1'^2)/2 + (2*x2'^2 + %s*y2'^2 + 2*z2'^2)/2 + (x3'^2 + y3'^2 + z3'^2)*5/2",
+            list[k].m);
         for (int i = 1; i <= 3; i++)
-            nh_text_addf(&text, " + 3*%d/sqrt((x%d - x%d)^2 + (y%d - y%d)^2 + (z%d - z%d)^2)", i == 1 ? 2 : i == 2 ? 10 : 5, i, i % 3 + 1, i, i % 3 + 1, i, i % 3 + 1);
+            nh_text_addf(&text, " + 3*%d/sqrt((x%d - x%d)^2 + (y%d - y%d)^2 + (z%d - z%d)^2)",
+                         i == 1   ? 2
+                         : i == 2 ? 10
+                                  : 5,
+                         i, i % 3 + 1, i, i % 3 + 1, i, i % 3 + 1);
         mechanics x = mechanics_of_text(nh_text_string(&text), NH_CHART_AUTO);
         nh_closed_shape shape = {.model = x.model};
         nh_darboux *out = nh_darboux_of(arena, &shape);
@@ -315,21 +352,27 @@ Test(darboux, roots_on_a_line)
 /* For which values of the parameters, beside those given?  A line that is one for all values; a degree that is. */
 Test(darboux, parameters)
 {
-    static const struct { bool space; const char *kinetic, *V; bool generic; } list[] = {
+    static const struct {
+        bool space;
+        const char *kinetic, *V;
+        bool generic;
+    } list[] = {
         {false, "(x'^2 + y'^2)/2", "k*(x^4 + x^2*y^2) + y^4/k", true},
         {false, "(k*x'^2 + y'^2)/2", "x^4 + x^2*y^2 + y^4 + k*7", true},
         {false, "(x'^2 + y'^2)/2", "x^3 + x^2*y + k*y^3", true},
-        {false, "(x'^2 + y'^2)/2", "x^4 + x^2*y^2 + y^4 + (k - 3)*x", false},      /* 0 at the given value */
-        {false, "(x'^2 + y'^2)/2", "x^4 + x^2*y^2 + y^4 + (k - 3)*x^3*sqrt(x^2 + y^2)", false}, /* homogeneous, but no polynomial */
+        {false, "(x'^2 + y'^2)/2", "x^4 + x^2*y^2 + y^4 + (k - 3)*x", false}, /* 0 at the given value */
+        {false, "(x'^2 + y'^2)/2", "x^4 + x^2*y^2 + y^4 + (k - 3)*x^3*sqrt(x^2 + y^2)",
+         false}, /* homogeneous, but no polynomial */
         {false, "(x'^2 + y'^2)/2", "x^4 + x^2*y^2 + y^(k + 1)", false},
         {false, "(x'^2 + (k - 2 + (k - 3)*x^2)*y'^2)/2", "x^4 + x^2*y^2 + y^4", false},
         {false, "(x'^2 + y'^2)/2 + (k - 3)*x*y'", "x^4 + x^2*y^2 + y^4", false},
-        {true, "(x'^2 + y'^2 + z'^2)/2", "z*(x^2 + k*y^2) - z^3/3", true},         /* along z for all k */
-        {true, "(x'^2 + y'^2 + k/3*z'^2)/2", "(x + y + z)^3 + x*y*z", false},       /* along (1, 1, 1) for 3 alone */
+        {true, "(x'^2 + y'^2 + z'^2)/2", "z*(x^2 + k*y^2) - z^3/3", true},    /* along z for all k */
+        {true, "(x'^2 + y'^2 + k/3*z'^2)/2", "(x + y + z)^3 + x*y*z", false}, /* along (1, 1, 1) for 3 alone */
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         nh_arena *arena = nh_arena_create();
-        nh_darboux *out = darboux_of(arena, list[i].space, list[i].kinetic, list[i].V, "parameters: [{name: k, value: 3}]\n");
+        nh_darboux *out =
+            darboux_of(arena, list[i].space, list[i].kinetic, list[i].V, "parameters: [{name: k, value: 3}]\n");
         cr_expect(out->applies && out->refuted, "%s: %s", list[i].V, out->obstacle);
         cr_expect_eq(out->generic, list[i].generic, "%s at %s", list[i].V, out->refutation.point);
         nh_arena_free(arena);
@@ -341,11 +384,28 @@ Test(darboux, parameters)
 Test(darboux, turned)
 {
     static const long turn[][3] = {{1, 0, 1}, {3, 4, 5}, {5, -12, 13}, {20, 21, 29}};
-    static const struct { const char *form; bool refuted; } list[] = {
-        {"7*X^3 - 2*Y^3", false}, {"3*X^4 + 5*Y^4", false}, {"X^5 + 11*Y^5", false}, {"X^6 - 4*Y^6", false}, {"2*X^7 + Y^7", false}, {"2/X + 3/Y", false}, {"2/X^3 - 3/Y^3", false},
-        {"X^2*Y + 2*Y^3", false}, {"X^2*Y + Y^3/3", false}, {"X^2*Y + 16/3*Y^3", false}, {"X^4 + 6*X^2*Y^2 + Y^4", false}, {"X^4 + 6*X^2*Y^2 + 8*Y^4", false},
-        {"X^4 + 12*X^2*Y^2 + 16*Y^4", false}, {"(X^2 + Y^2)^3", false}, {"3*X^4 + 5*Y^4 + X^2*Y^2", true}, {"X^5 + 11*Y^5 + X^3*Y^2", true},
-        {"X^6 - 4*Y^6 + X^2*Y^4", true}, {"X^2*Y + 3*Y^3", true},
+    static const struct {
+        const char *form;
+        bool refuted;
+    } list[] = {
+        {"7*X^3 - 2*Y^3", false},
+        {"3*X^4 + 5*Y^4", false},
+        {"X^5 + 11*Y^5", false},
+        {"X^6 - 4*Y^6", false},
+        {"2*X^7 + Y^7", false},
+        {"2/X + 3/Y", false},
+        {"2/X^3 - 3/Y^3", false},
+        {"X^2*Y + 2*Y^3", false},
+        {"X^2*Y + Y^3/3", false},
+        {"X^2*Y + 16/3*Y^3", false},
+        {"X^4 + 6*X^2*Y^2 + Y^4", false},
+        {"X^4 + 6*X^2*Y^2 + 8*Y^4", false},
+        {"X^4 + 12*X^2*Y^2 + 16*Y^4", false},
+        {"(X^2 + Y^2)^3", false},
+        {"3*X^4 + 5*Y^4 + X^2*Y^2", true},
+        {"X^5 + 11*Y^5 + X^3*Y^2", true},
+        {"X^6 - 4*Y^6 + X^2*Y^4", true},
+        {"X^2*Y + 3*Y^3", true},
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         for (size_t k = 0; k < sizeof turn / sizeof *turn; k++) {
@@ -357,8 +417,35 @@ Test(darboux, turned)
                 else if (*c == 'Y') nh_text_addf(&V, "((%ld*x + %ld*y)/%ld)", turn[k][1], turn[k][0], turn[k][2]);
                 else nh_text_addf(&V, "%c", *c);
             nh_darboux *out = darboux_of(arena, false, "(x'^2 + y'^2)/2", nh_text_string(&V), "");
-            cr_expect(out->applies && out->refuted == list[i].refuted, "%s, turn %zu: %s %s", list[i].form, k, out->refutation.point, out->refutation.eigenvalue);
+            cr_expect(out->applies && out->refuted == list[i].refuted, "%s, turn %zu: %s %s", list[i].form, k,
+                      out->refutation.point, out->refutation.eigenvalue);
             nh_text_clear(&V);
             nh_arena_free(arena);
         }
+}
+
+/* The table, which was typed, and Kovacic's algorithm say the same of Gauss's equation. */
+Test(darboux, both_ways)
+{
+    static const long degree[] = {1, -1, 3, -3, 4, -4, 5, -5, 6, 7, -7};
+    enum { largest = 9, bottoms = 5 };
+    static const ulong bottom[bottoms] = {1, 2, 3, 8, 24};
+    nh_arena *arena = nh_arena_create();
+    fmpq_t lambda;
+    fmpq_init(lambda);
+    size_t refuted = 0, allowed = 0;
+    for (size_t i = 0; i < sizeof degree / sizeof *degree; i++)
+        for (size_t b = 0; b < bottoms; b++)
+            for (long top = -largest; top <= largest; top++) {
+                fmpq_set_si(lambda, top, bottom[b]);
+                bool in_table = nh_darboux_allowed(degree[i], lambda);
+                bool excluded = nh_darboux_excluded(arena, degree[i], lambda);
+                cr_expect_eq(excluded, !in_table, "degree %ld, %ld/%lu", degree[i], top, bottom[b]);
+                refuted += excluded;
+                allowed += in_table;
+            }
+    cr_expect_gt(refuted, 500);
+    cr_expect_gt(allowed, 50);
+    fmpq_clear(lambda);
+    nh_arena_free(arena);
 }

@@ -37,6 +37,9 @@ typedef struct {
  * -2 it says nothing: every one is. */
 bool nh_darboux_allowed(long k, const fmpq_t lambda);
 
+/* Is it not, and does Kovacic's algorithm prove the same of its Gauss equation? */
+bool nh_darboux_excluded(nh_arena *arena, long k, const fmpq_t lambda);
+
 /* All coordinates of the system count, also those that the shape leaves out.  The lines: with two coordinates and a
  * polynomial all, complex ones too; else those whose coordinates are 0, 1 and -1, and the equilateral triangle of three
  * bodies.  In the arena. */

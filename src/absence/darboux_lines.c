@@ -111,7 +111,7 @@ static void test_matrix(nh_darboux_work *w, const fmpq_mat_t matrix, const char 
         }
         fmpq_set_fmpz_frac(lambda, fmpz_poly_get_coeff_ptr(g, 0), fmpz_poly_get_coeff_ptr(g, 1));
         fmpq_neg(lambda, lambda);
-        if (nh_darboux_allowed(w->out->degree, lambda)) continue;
+        if (!nh_darboux_excluded(w->arena, w->out->degree, lambda)) continue;
         char *text = fmpq_get_str(NULL, 10, lambda);
         nh_darboux_refute(w, point, nh_arena_strdup(w->arena, text));
         flint_free(text);

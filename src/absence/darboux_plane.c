@@ -101,7 +101,7 @@ static void test_factor(nh_darboux_work *w, const plane *p, const fmpz_poly_t g)
         fmpq_poly_sub(lambda, lambda, other);
         fmpq_poly_rem(lambda, lambda, f);
         fmpq_poly_get_coeff_fmpq(value, lambda, 0);
-        if (fmpq_poly_degree(lambda) > 0 || !nh_darboux_allowed(w->out->degree, value))
+        if (fmpq_poly_degree(lambda) > 0 || nh_darboux_excluded(w->arena, w->out->degree, value))
             nh_darboux_refute(w, direction_words(w, g), nh_polynomial_text(w->arena, lambda, "s"));
     }
     fmpq_clear(value);
