@@ -82,7 +82,7 @@ static const potential OTHERS[] = {
     {"an angular potential", POLAR("r^2/2 + cos(3*h)/r^2"), 2},
     {"spherical pendulum along another axis", ON_SPHERE("sin(h)*cos(p)"), 2},
     {"Neumann", ON_SPHERE("sin(h)^2*cos(p)^2 + 2*sin(h)^2*sin(p)^2"), 2},
-    {"Higgs", ON_SPHERE("tan(h)^2"), 3},
+    {"Higgs", ON_SPHERE("tan(h)^2"), 2},
     {"three centrifugal terms on a sphere", ON_SPHERE("1/cos(h)^2 + 1/(sin(h)*cos(p))^2 + 1/(sin(h)*sin(p))^2"), 3},
     {"Lagrange with a gyrostat", BODY("(2*W1^2 + 2*W2^2 + 3*W3^2)/2 + 2*W3", "cos(h)"), 3},
     {"Zhukovsky", BODY("(3*W1^2 + 2*W2^2 + W3^2)/2 + W1 + 2*W2", "0"), 3},

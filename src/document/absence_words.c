@@ -99,22 +99,27 @@ static void put_known(const writer *w)
 
 /* ---- the class of functions ---- */
 
-static bool knows_energy(const writer *w)
+/* "energy 1/7"; "at the level 1/7 of Phi2" of another integral, which is the first of those used. */
+static void put_level(const writer *w, const nh_normal_equation *e)
 {
-    bool any = false;
-    for (size_t i = 0; i < w->a->known; i++) any |= nh_current_is_energy(&w->r->list->found[w->a->known_current[i]]);
-    return any;
+    size_t index = w->a->known_current[e->used[0]];
+    const nh_current *current = &w->r->list->found[index];
+    char *level = nh_print_string(w->r->question->model->dag, e->level);
+    bool energy = nh_current_is_energy(current);
+    nh_text_addf(w->out, energy ? "of energy %s" : "at the level %s", level);
+    if (!energy && w->a->known > 1) {
+        if (w->brief) nh_text_addf(w->out, " of quantity %zu", index + 1);
+        else nh_text_addf(w->out, " of %s", formula(w, current->name));
+    }
+    nh_free(level);
 }
 
 /* "the complex motions x = 0 of energy 1/7" */
 static void put_motions(const writer *w)
 {
     if (w->best) {
-        const nh_normal_equation *e = w->best->equation;
-        char *level = nh_print_string(w->r->question->model->dag, e->level);
-        nh_text_addf(w->out, "the complex motions %s %s %s", formula(w, e->plane->words),
-                     knows_energy(w) ? "of energy" : "at the level", level);
-        nh_free(level);
+        nh_text_addf(w->out, "the complex motions %s ", formula(w, w->best->equation->plane->words));
+        put_level(w, w->best->equation);
     } else if (nh_absence_parts_reason_of(w->a) == NH_ABSENCE_BY_DARBOUX)
         nh_text_addf(w->out, "the complex motions on the line along %s", w->a->darboux->refutation.point);
     else nh_text_add(w->out, "some complex motions");
