@@ -29,7 +29,7 @@ typedef struct {
     nh_residues residues;
     nh_darboux darboux;
     nh_resonance rest, *rests[1];
-    size_t known[4];
+    size_t known[4], used[4];
 } answer;
 
 /* The letters are all coordinates but the last `left`, and all velocities. */
@@ -53,7 +53,7 @@ static void make(answer *x, const char *text, size_t left)
     for (size_t i = 0; i < o->n; i++) s->letter[s->coordinates + i] = o->chart->w[i], s->rate[s->coordinates + i] = o->a[i];
     x->plane[0].words = x->plane[1].words = "x = 0";
     for (size_t i = 0; i < 2; i++) {
-        x->equation[i] = (nh_normal_equation){.plane = &x->plane[i], .level = nh_ratio(o->dag, 1, 7), .curve = "y'^2 = 2/7 - y^2 + 2/3*y^3", .variable = "y", .known = 1, .dimension = 2, .blocks = 1, .single_valued = true};
+        x->equation[i] = (nh_normal_equation){.plane = &x->plane[i], .level = nh_ratio(o->dag, 1, 7), .curve = "y'^2 = 2/7 - y^2 + 2/3*y^3", .variable = "y", .known = 1, .used = x->used, .dimension = 2, .blocks = 1, .single_valued = true};
         x->attempt[i] = (nh_absence_attempt){.equation = &x->equation[i], .p = "(x^2 - x)/(2/7 - x^2 + 2/3*x^3)", .q = "-(1 + 2*x)/(2/7 - x^2 + 2/3*x^3)"};
     }
     static slong lowest[3] = {-1, 0, 2}, degrees[2] = {0, 3};
@@ -69,7 +69,7 @@ static void make(answer *x, const char *text, size_t left)
     x->rest = (nh_resonance){.point = "x = 0, x' = 0", .polynomial = "x^5 + x^4 + 3", .letters = 5, .span = 4, .diagonalizable = true, .at_most = 1, .prime = 101};
     x->rests[0] = &x->rest;
     x->a = (nh_absence){.verdict = NH_ABSENCE_NONE_ELSE, .shape = &x->shape, .known = x->r->list->independent < 4 ? x->r->list->independent : 4, .known_current = x->known, .at_most = 1, .generic = true, .planes = 2, .attempts = 2, .attempt = x->attempt, .best = 0};
-    for (size_t i = 0; i < 4; i++) x->known[i] = i;
+    for (size_t i = 0; i < 4; i++) x->known[i] = x->used[i] = i;
     x->attempt[0].kovacic = &x->kovacic;
     x->attempt[0].orbit = 2;
     x->r->absence = &x->a;
@@ -110,6 +110,23 @@ static void says_briefly(const answer *x, const char *expected)
     cr_expect_leq(nh_screen_count(nh_text_string(&block)), 4, "%s", nh_text_string(&block));
     nh_text_clear(&block);
     cr_expect_str_eq(text, expected, "\n%s\n%s", text, expected);
+}
+
+/* The level is that of the integral which determines the curve, of the energy or of another one. */
+Test(absence_words, levels)
+{
+    answer x;
+    make(&x, "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2 - x^2 - y^4 - z\n", 0);
+    cr_assert_geq(x.a.known, 2U);
+    cr_expect_not_null(strstr(nh_absence_words_sentence(x.r), "x = 0 of energy 1/7 "), "%s", nh_absence_words_sentence(x.r));
+    x.used[0] = 1;
+    cr_expect_not_null(strstr(nh_absence_words_sentence(x.r), "x = 0 at the level 1/7 of Phi2 "), "%s", nh_absence_words_sentence(x.r));
+    cr_expect_not_null(strstr(nh_absence_words_short(x.r, 4), "x = 0 at the level 1/7 of quantity 2 "), "%s", nh_absence_words_short(x.r, 4));
+    x.a.known = 1;
+    x.known[0] = 1;
+    x.used[0] = 0;
+    cr_expect_not_null(strstr(nh_absence_words_sentence(x.r), "x = 0 at the level 1/7 is "), "%s", nh_absence_words_sentence(x.r));
+    end(&x);
 }
 
 Test(absence_words, none_else)

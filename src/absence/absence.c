@@ -49,7 +49,7 @@ static bool try_plane(nh_arena *arena, nh_absence *absence, const nh_plane *plan
     size_t levels = absence->everything ? MOST_LEVELS : 1;
     for (size_t n = 0; n < levels && !nh_interrupted(); n++) {
         nh_absence_attempt *attempt = &absence->attempt[absence->attempts];
-        attempt->equation = nh_normal_equation_of(arena, absence->shape, plane, known, n);
+        *attempt = (nh_absence_attempt){.equation = nh_normal_equation_of(arena, absence->shape, plane, known, n)};
         if (attempt->equation->obstacle) {
             attempt->obstacle = attempt->equation->obstacle;
             absence->attempts += n == 0; /* the same obstacle at another level says nothing more */
@@ -59,7 +59,10 @@ static bool try_plane(nh_arena *arena, nh_absence *absence, const nh_plane *plan
             nh_normal_equation_clear(attempt->equation);
             continue;
         }
-        nh_absence_attempt_run(arena, attempt, absence->everything);
+        if (!nh_absence_attempt_run(arena, attempt, absence->everything)) {
+            nh_normal_equation_clear(attempt->equation);
+            return false;
+        }
         if (absence->best == SIZE_MAX || better(absence, attempt, &absence->attempt[absence->best]))
             absence->best = absence->attempts;
         absence->attempts++;
@@ -95,7 +98,17 @@ static bool lagrangian(const nh_closed_shape *shape)
     return true;
 }
 
-static void from_attempt(nh_absence *absence)
+/* Do all integrals hold for all values of the parameters? */
+static bool all_generic(const nh_known_integrals *known)
+{
+    bool all = true;
+    for (size_t k = 0; k < known->count; k++) all = all && known->generic[k];
+    return all;
+}
+
+/* What depends on the integrals found depends on all of them, also on those whose differentials vanish along the
+ * motion. */
+static void from_attempt(nh_absence *absence, const nh_known_integrals *known)
 {
     const nh_absence_attempt *a = &absence->attempt[absence->best];
     int closed = closes(absence, a);
@@ -105,7 +118,7 @@ static void from_attempt(nh_absence *absence)
     /* SL(2) is its own commutator group, so a covering of the motion that opens an angle has it, too */
     bool own = a->kovacic && a->kovacic->group == NH_GROUP_SL2 && a->orbit <= 2;
     absence->periodic = a->equation->periodic && !own;
-    absence->generic = a->equation->generic;
+    absence->generic = a->equation->generic && (closed != 1 || all_generic(known));
 }
 
 /* A straight line of a homogeneous potential: two degrees of freedom have no integral besides the energy; more are not
@@ -162,10 +175,10 @@ static const char *first_obstacle(const nh_absence *absence)
     return absence->attempts ? absence->attempt[0].obstacle : "the computation was ended";
 }
 
-static void conclude(nh_arena *arena, nh_absence *absence)
+static void conclude(nh_arena *arena, nh_absence *absence, const nh_known_integrals *known)
 {
     absence->at_most = absence->shape->count - 1;
-    if (absence->best < absence->attempts) from_attempt(absence);
+    if (absence->best < absence->attempts) from_attempt(absence, known);
     from_darboux(absence);
     from_group(absence);
     compare(arena, absence);
@@ -201,5 +214,9 @@ void nh_absence_find(struct nh_analysis *analysis, bool everything)
     bool decided = absence->best < absence->attempts && enough(absence, &absence->attempt[absence->best]);
     if (everything || !decided) absence->darboux = nh_darboux_of(arena, absence->shape);
     if (everything || !decided) absence->resonances = nh_resonance_find(arena, absence->shape, &absence->resonance);
-    conclude(arena, absence);
+    if (nh_interrupted()) { /* what was computed afterwards proves nothing */
+        absence->darboux = NULL;
+        absence->resonances = 0;
+    }
+    conclude(arena, absence, &known);
 }

@@ -3,6 +3,7 @@
  * Kovacic's algorithm and residues take milliseconds.  The monodromy in balls takes a second, and is for --absence. */
 #include "absence/absence_internal.h"
 #include "absence/polynomial_text.h"
+#include "base/progress.h"
 
 /* An orbit of the blocks' group.  The first bound of the dimension, and where it comes from, is kept unless a later one
  * is larger, or as large and of the larger class of functions. */
@@ -95,7 +96,7 @@ static void first_order(nh_arena *arena, nh_absence_attempt *attempt, const nh_l
     else if (!attempt->obstacle) attempt->obstacle = "all residues are rational";
 }
 
-void nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, bool everything)
+bool nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, bool everything)
 {
     const nh_normal_equation *equation = attempt->equation;
     for (size_t i = 0; i < equation->blocks; i++) {
@@ -105,11 +106,14 @@ void nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, bool e
         bool refuted = attempt->kovacic && attempt->kovacic->group == NH_GROUP_SL2;
         if (block->size == 2 && !refuted) second_order(arena, attempt, block);
     }
-    if (everything) {
-        attempt->monodromy = nh_monodromy_try(arena, equation->blocks, equation->block);
+    if (nh_interrupted()) return false;
+    nh_monodromy *monodromy = everything ? nh_monodromy_try(arena, equation->blocks, equation->block) : NULL;
+    if (monodromy && !nh_interrupted()) {
+        attempt->monodromy = monodromy;
         bound(attempt, attempt->monodromy->rank, false);
         if (!attempt->obstacle) attempt->obstacle = attempt->monodromy->obstacle;
     }
     if (attempt->orbit == equation->dimension) attempt->obstacle = NULL;
     else if (!attempt->obstacle) attempt->obstacle = "its equation has more than two unknowns, which --absence tries";
+    return true;
 }

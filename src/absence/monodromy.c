@@ -4,6 +4,7 @@
 
 #include "absence/monodromy_internal.h"
 #include "base/foreign_memory.h"
+#include "base/progress.h"
 
 enum {
     digits = 20,
@@ -168,9 +169,10 @@ static const char *follow(nh_monodromy_sum *sum, nh_monodromy_element *loop, boo
 {
     for (size_t i = 0; i < sum->points; i++) {
         if (nh_monodromy_loop(sum, i, loop[i])) continue;
-        *hopeless = sum->work > sum->limit;
-        return *hopeless ? "the continuation along closed paths takes too much work"
-                         : "a closed path passes too near to singular points";
+        *hopeless = sum->work > sum->limit || nh_interrupted();
+        return nh_interrupted() ? "the computation was ended"
+               : *hopeless      ? "the continuation along closed paths takes too much work"
+                                : "a closed path passes too near to singular points";
     }
     return NULL;
 }
@@ -216,7 +218,7 @@ nh_monodromy *nh_monodromy_try(nh_arena *arena, size_t blocks, const nh_linear_e
 {
     nh_monodromy *best = NULL;
     bool hopeless = false;
-    for (long bits = first_bits; bits <= last_bits && !hopeless; bits *= 2) {
+    for (long bits = first_bits; bits <= last_bits && !hopeless && !(best && nh_interrupted()); bits *= 2) {
         nh_monodromy *m = attempt(arena, blocks, block, bits, &hopeless);
         if (!best || m->rank > best->rank || (m->rank == best->rank && m->trace)) best = m;
         if (best->rank == best->size) break;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/progress.h"
 
 enum {
     most_pairs = 40,  /* words of two letters */
@@ -351,7 +352,7 @@ static void prove_with(span *all, nh_monodromy_proof *proof)
     const nh_monodromy_sum *sum = all->sum;
     size_t words = 0, most = sum->points + most_pairs + most_powers + most_longer, letter[most_letters], letters;
     found *found_of = nh_alloc_array(most + 1, sizeof *found_of);
-    for (; all->rank < all->size && (letters = spell(sum->points, words, letter)); words++) {
+    for (; all->rank < all->size && (letters = spell(sum->points, words, letter)) && !nh_interrupted(); words++) {
         found *f = found_of + words;
         f->log = nh_monodromy_element_new(sum);
         f->good = nh_alloc_array(sum->blocks + 1, sizeof *f->good);

@@ -15,6 +15,7 @@
 #include "absence/monodromy_internal.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
 
 enum {
     spare_bits = 32,  /* of the series, beyond those of the result */
@@ -384,6 +385,7 @@ nh_monodromy_outcome nh_monodromy_step(nh_monodromy_sum *sum, size_t b, const ac
 /* The same by halves, where one step is too long. */
 static bool line_within(nh_monodromy_sum *sum, size_t b, const acb_t z, const acb_t h, int halvings, acb_mat_t T)
 {
+    if (nh_interrupted()) return false;
     sum->steps++;
     nh_monodromy_outcome outcome = nh_monodromy_step(sum, b, z, h, T);
     if (outcome != NH_MONODROMY_SHORTER || !halvings) return outcome == NH_MONODROMY_DONE;

@@ -16,7 +16,7 @@ typedef struct {
     bool periodic;        /* the moving coordinate is an angle: integrals have period 2 pi in it */
     bool generic;         /* plane, integrals used and their number hold for all values of the parameters */
     size_t known;         /* integrals used, independent along the curve (the energy included): r */
-    size_t *used;         /* their indices among those given */
+    size_t *used;         /* their indices among those given; first the one that determines the curve */
     size_t unused;    /* given, with a differential along the curve that depends on those used, or has no value in its
                            * field */
     size_t dimension; /* d = letters - 1 - known */

@@ -29,7 +29,8 @@ nh_absence_parts_reason nh_absence_parts_reason_of(const nh_absence *a)
 {
     const nh_absence_attempt *t = nh_absence_parts_best(a);
     if (!t) return a->darboux && a->darboux->refuted ? NH_ABSENCE_BY_DARBOUX : NH_ABSENCE_BY_NOTHING;
-    bool special = t->kovacic && t->kovacic->group == NH_GROUP_SL2;
+    /* over an irregular point the group is larger than that of closed paths, which balls speak of */
+    bool special = t->kovacic && t->kovacic->group == NH_GROUP_SL2 && (t->kovacic->regular || a->rational);
     bool triangular = t->kovacic && t->kovacic->group == NH_GROUP_TRIANGULAR;
     if (t->equation->dimension == 1 && by_residue(t->residues) != NH_ABSENCE_BY_NOTHING) return by_residue(t->residues);
     if (special && t->equation->dimension == 2 && t->orbit == 2) return NH_ABSENCE_BY_GROUP;

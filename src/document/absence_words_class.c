@@ -82,23 +82,28 @@ void nh_absence_words_put_known(const nh_absence_writer *w)
 
 /* ---- the class of functions ---- */
 
-static bool knows_energy(const nh_absence_writer *w)
+/* "energy 1/7"; "at the level 1/7 of Phi2" of another integral, which is the first of those used. */
+static void put_level(const nh_absence_writer *w, const nh_normal_equation *e)
 {
-    bool any = false;
-    for (size_t i = 0; i < w->a->known; i++)
-        any |= nh_current_is_energy(nh_absence_current(w->r, w->a->known_current[i]));
-    return any;
+    size_t index = w->a->known_current[e->used ? e->used[0] : 0];
+    const nh_current *current = nh_absence_current(w->r, index);
+    char *level = nh_print_string(w->r->question->model->dag, e->level);
+    bool energy = w->a->known && nh_current_is_energy(current);
+    nh_text_addf(w->out, energy ? "of energy %s" : "at the level %s", level);
+    if (!energy && w->a->known > 1) {
+        if (w->brief && index < w->r->list->count) nh_text_addf(w->out, " of quantity %zu", index + 1);
+        else nh_text_addf(w->out, " of %s", nh_absence_words_formula(w, current->name));
+    }
+    nh_free(level);
 }
 
 /* "the complex motions x = 0 of energy 1/7" */
 static void put_motions(const nh_absence_writer *w)
 {
     if (w->best) {
-        const nh_normal_equation *e = w->best->equation;
-        char *level = nh_print_string(w->r->question->model->dag, e->level);
-        nh_text_addf(w->out, "the complex motions %s %s %s", nh_absence_words_formula(w, e->plane->words),
-                     knows_energy(w) ? "of energy" : "at the level", level);
-        nh_free(level);
+        const char *plane = w->best->equation->plane->words;
+        nh_text_addf(w->out, "the complex motions %s ", nh_absence_words_formula(w, plane));
+        put_level(w, w->best->equation);
     } else if (nh_absence_parts_reason_of(w->a) == NH_ABSENCE_BY_DARBOUX && w->unnamed)
         nh_text_add(w->out, "the complex motions on a straight line");
     else if (nh_absence_parts_reason_of(w->a) == NH_ABSENCE_BY_DARBOUX)
