@@ -1,6 +1,7 @@
 /* The engines on one normal equation: what dimension do orbits of its group have at least?
  *
- * Kovacic's algorithm and residues take milliseconds.  The monodromy in balls takes a second, and is for --absence. */
+ * Kovacic's algorithm, residues and logarithms of higher order take milliseconds.  The monodromy in balls takes a
+ * second, and is for --absence. */
 #include "absence/absence_internal.h"
 #include "absence/polynomial_text.h"
 
@@ -94,7 +95,16 @@ static void first_order(nh_arena *arena, nh_absence_attempt *attempt, const nh_l
     else if (!attempt->obstacle) attempt->obstacle = "all residues are rational";
 }
 
-void nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, bool everything)
+/* Where the group of the first order is open. */
+static void higher_order(nh_arena *arena, const nh_closed_shape *shape, nh_absence_attempt *attempt)
+{
+    nh_higher *higher = nh_higher_of(arena, shape, attempt->equation);
+    if (!higher->applies) return;
+    attempt->higher = higher;
+    attempt->obstacle = higher->obstacle;
+}
+
+void nh_absence_attempt_run(nh_arena *arena, const nh_closed_shape *shape, nh_absence_attempt *attempt, bool everything)
 {
     const nh_normal_equation *equation = attempt->equation;
     for (size_t i = 0; i < equation->blocks; i++) {
@@ -104,11 +114,13 @@ void nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, bool e
         bool refuted = attempt->kovacic && attempt->kovacic->group == NH_GROUP_SL2;
         if (block->size == 2 && !refuted) second_order(arena, attempt, block);
     }
+    if (attempt->kovacic && attempt->kovacic->group == NH_GROUP_OPEN) higher_order(arena, shape, attempt);
+    bool refuted = attempt->higher && attempt->higher->refuted;
     if (everything) {
         attempt->monodromy = nh_monodromy_try(arena, equation->blocks, equation->block);
         bound(attempt, attempt->monodromy->rank, false);
-        if (!attempt->obstacle) attempt->obstacle = attempt->monodromy->obstacle;
+        if (!attempt->obstacle && !refuted) attempt->obstacle = attempt->monodromy->obstacle;
     }
-    if (attempt->orbit == equation->dimension) attempt->obstacle = NULL;
+    if (attempt->orbit == equation->dimension || refuted) attempt->obstacle = NULL;
     else if (!attempt->obstacle) attempt->obstacle = "its equation has more than two unknowns, which --absence tries";
 }

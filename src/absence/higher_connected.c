@@ -129,7 +129,7 @@ typedef struct {
     const fmpq_poly_struct *second;
 } operation;
 
-static void operation_init(operation*o, const nh_higher_system *s, bool odd)
+static void operation_init(operation *o, const nh_higher_system *s, bool odd)
 {
     enum { thrice = 3 };
     fmpq_poly_init(o->first);
@@ -146,7 +146,7 @@ static void operation_init(operation*o, const nh_higher_system *s, bool odd)
 }
 
 /* out = the operation, applied to P */
-static void apply(const operation*o, const fmpq_poly_t P, fmpq_poly_t out)
+static void apply(const operation *o, const fmpq_poly_t P, fmpq_poly_t out)
 {
     fmpq_poly_t slope, term;
     fmpq_poly_init(slope);
@@ -164,7 +164,7 @@ static void apply(const operation*o, const fmpq_poly_t P, fmpq_poly_t out)
 
 /* P of the degree d, monic: its lower coefficients one after another, so that the powers x^(d + 1), .., x^1 of what is
  * left vanish.  Is nothing left? */
-static bool solve(const operation*o, slong degree, fmpq_poly_t P)
+static bool solve(const operation *o, slong degree, fmpq_poly_t P)
 {
     fmpq_poly_t left, power, image;
     fmpq_t value, factor;

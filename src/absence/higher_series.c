@@ -223,7 +223,8 @@ static void fill_powers(work *w, unsigned k)
     for (int d = 0; d < NH_HIGHER_DIRECTIONS; d++)
         for (unsigned i = 2; i <= w->most[d]; i++) {
             series_zero(part(w, d, i, k));
-            for (unsigned l = 0; l <= k; l++) add_product(part(w, d, i, k), part(w, d, i - 1, l), part(w, d, 1, k - l), 1);
+            for (unsigned l = 0; l <= k; l++)
+                add_product(part(w, d, i, k), part(w, d, i - 1, l), part(w, d, 1, k - l), 1);
         }
 }
 
@@ -244,21 +245,22 @@ static exponents exponents_of(const work *w, int direction)
     return (exponents){.low = -n, .high = n + 1};
 }
 
-/* As solve, for both directions. */
+/* As solve, for both directions: first z_k, which u_k depends on where the inertia couples u and z; u_k does not enter
+ * the equation of z_k, since g(u, 0) = 0. */
 static int next_order(work *w, unsigned k, nh_higher_logarithm *out)
 {
     int done = 1;
-    series side[NH_HIGHER_DIRECTIONS];
-    for (int d = 0; d < NH_HIGHER_DIRECTIONS; d++) series_init(&side[d], w->mod);
-    fill_powers(w, k); /* u_k and z_k are 0 until now */
-    for (int d = 0; d < NH_HIGHER_DIRECTIONS; d++) rate_part(w, d, k, &side[d]);
+    series side;
+    series_init(&side, w->mod);
     for (int d = NH_HIGHER_DIRECTIONS; d-- > 0 && done > 0;) {
         slong power = 0;
-        done = solve(w, exponents_of(w, d), &w->slope[d], &side[d], part(w, d, 1, k), &power);
+        fill_powers(w, k); /* what is not found of order k is 0 until now */
+        rate_part(w, d, k, &side);
+        done = solve(w, exponents_of(w, d), &w->slope[d], &side, part(w, d, 1, k), &power);
         if (done < 0) *out = (nh_higher_logarithm){.order = k, .across = d == NH_HIGHER_ACROSS, .power = power};
     }
     fill_powers(w, k);
-    for (int d = 0; d < NH_HIGHER_DIRECTIONS; d++) nmod_poly_clear(side[d].c);
+    nmod_poly_clear(side.c);
     return done;
 }
 

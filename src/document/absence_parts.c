@@ -29,6 +29,7 @@ nh_absence_parts_reason nh_absence_parts_reason_of(const nh_absence *a)
 {
     const nh_absence_attempt *t = nh_absence_parts_best(a);
     if (!t) return a->darboux && a->darboux->refuted ? NH_ABSENCE_BY_DARBOUX : NH_ABSENCE_BY_NOTHING;
+    if (t->higher && t->higher->refuted) return NH_ABSENCE_BY_LOGARITHM;
     bool special = t->kovacic && t->kovacic->group == NH_GROUP_SL2;
     bool triangular = t->kovacic && t->kovacic->group == NH_GROUP_TRIANGULAR;
     if (t->equation->dimension == 1 && by_residue(t->residues) != NH_ABSENCE_BY_NOTHING) return by_residue(t->residues);
@@ -54,6 +55,8 @@ const char *nh_absence_parts_group(nh_arena *arena, const nh_absence_attempt *t)
     const nh_kovacic *k = t->kovacic;
     static const char *const groups[] = {"SL(2)", "SL(2) or triangular", "open", "undecided"};
     if (k && (k->group == NH_GROUP_SL2 || k->group == NH_GROUP_TRIANGULAR)) return groups[k->group];
+    if (t->higher && t->higher->refuted)
+        return nh_arena_printf(arena, "connected, and not abelian at order %u", t->higher->order);
     if (t->residues && t->residues->verdict == NH_RESIDUE_MEROMORPHIC) return "a residue is not rational";
     if (t->residues && t->residues->verdict == NH_RESIDUE_RATIONAL) return "infinite, by an irregular point";
     if (t->orbit && t->equation)

@@ -210,6 +210,13 @@ static void put_reason(const writer *w)
         put_orbit(w, "monodromy");
         nh_text_addf(w->out, "; proved in balls of %ld bits", t->monodromy->bits);
         break;
+    case NH_ABSENCE_BY_LOGARITHM:
+        nh_text_addf(w->out,
+                     "the variational equation of order %u along them has a logarithm at their pole, and the group of "
+                     "the first one is connected",
+                     t->higher->order);
+        put_prime(w, t->higher->prime);
+        break;
     case NH_ABSENCE_BY_DARBOUX:
         nh_text_addf(
             w->out,
@@ -225,10 +232,15 @@ static void put_reason(const writer *w)
 
 static void put_short_reason(const writer *w)
 {
-    static const char *const words[] = {"Galois group SL(2)",    "a block with the Galois group SL(2)",
-                                        "Galois group",          "a residue is not rational",
-                                        "an irregular point",    "monodromy, in balls",
-                                        "homogeneous potential", "normal variational equation"};
+    static const char *const words[] = {"Galois group SL(2)",
+                                        "a block with the Galois group SL(2)",
+                                        "Galois group",
+                                        "a residue is not rational",
+                                        "an irregular point",
+                                        "monodromy, in balls",
+                                        "logarithm of higher order",
+                                        "homogeneous potential",
+                                        "normal variational equation"};
     nh_text_add(w->out, words[nh_absence_parts_reason_of(w->a)]);
 }
 
