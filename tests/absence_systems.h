@@ -176,7 +176,7 @@ static const absence_system ABSENCE[] = {
     {"cubic 1:1/3", IN_PLANE("x^2*y + y^3/3"), OPEN_ROW, 0, 2},
     {"cubic 1:16/3", IN_PLANE("x^2*y + 16/3*y^3"), OPEN_ROW, 0, 2},
     {"cubic 1:1", IN_PLANE("x^2*y + y^3"), EXCLUDED, BY_LINES, 1},
-    {"cubic 1:2/3", IN_PLANE("x^2*y + 2/3*y^3"), OPEN_ROW, 0, 1},
+    {"cubic 1:2/3", IN_PLANE("x^2*y + 2/3*y^3"), EXCLUDED, BY_LOGARITHM, 1},
     {"quartic 1:6:1, homogeneous", IN_PLANE("x^4 + 6*x^2*y^2 + y^4"), OPEN_ROW, 0, 2},
     {"quartic 1:6:8", IN_PLANE("x^4 + 6*x^2*y^2 + 8*y^4"), OPEN_ROW, 0, 2},
     {"quartic 1:12:16", IN_PLANE("x^4 + 12*x^2*y^2 + 16*y^4"), OPEN_ROW, 0, 2},

@@ -4,6 +4,9 @@
 #include "absence_cases.h"
 
 #include "absence/higher_internal.h"
+#include "document/absence_words.h"
+
+#include "absence.h"
 
 #include <complex.h>
 
@@ -58,7 +61,7 @@ Test(higher, what_is_excluded_and_what_stays_open)
     for (size_t i = 0; i < FAMILIES; i++) {
         absence_case c = case_of(&FAMILY[i]);
         nh_normal_equation *e = equation_of(&c, "x = 0");
-        nh_higher *h = nh_higher_of(c.arena, c.shape, e);
+        nh_higher *h = nh_higher_of(c.arena, c.shape, e, true);
         judge(&FAMILY[i], h);
         if (!strcmp(FAMILY[i].name, "(1, 2/3)")) cr_expect_str_eq(h->solution, "y");
         nh_normal_equation_clear(e);
@@ -72,7 +75,7 @@ static void refuses(const char *text, const char *plane, const char *words)
 {
     absence_case c = absence_case_text(text);
     nh_normal_equation *e = equation_of(&c, plane);
-    nh_higher *h = nh_higher_of(c.arena, c.shape, e);
+    nh_higher *h = nh_higher_of(c.arena, c.shape, e, true);
     cr_expect(!h->applies && !h->refuted, "%s", text);
     cr_expect_not_null(strstr(h->obstacle, words), "%s: %s", text, h->obstacle);
     nh_normal_equation_clear(e);
@@ -95,21 +98,32 @@ Test(higher, scope)
             "x = 0, z = 0", "two coupled");
 }
 
-/* (2, 1/3) in other letters: planes q = p and p = 0, the first with other inertias, the second with one that couples them. */
+/* (B, eps) in other letters: planes q = p and p = 0 with an inertia that couples their letters; and planes of potentials that separate. */
 Test(higher, linear_changes)
 {
-#define IN(X, Y) "name: l\ncoordinates: [p, q]\nlagrangian: ((" X ")'^2 + (" Y ")'^2)/2 - (((" X ")^2 + 2*(" Y ")^2)/2 + (" X ")^2*(" Y ") + (" Y ")^3/3)\n"
-    static const char *const row[][2] = {
-        {"name: l\ncoordinates: [p, q]\nlagrangian: ((p' - q')^2 + (p' + q')^2)/2 - ((p - q)^2/2 + (p + q)^2 + (p - q)^2*(p + q) + (p + q)^3/3)\n",
-         "q = p"},
-        {"name: l\ncoordinates: [p, q]\nlagrangian: (p'^2 + (q' + p')^2)/2 - (p^2/2 + (q + p)^2 + p^2*(q + p) + (q + p)^3/3)\n", "p = 0"}};
+#define TURNED(B, EPS) "name: l\ncoordinates: [p, q]\nlagrangian: ((p' - q')^2 + (p' + q')^2)/2 - " \
+    "(((p - q)^2 + (" B ")*(p + q)^2)/2 + (p - q)^2*(p + q) + (" EPS ")*(p + q)^3)\n"
+#define SHEARED(B, EPS) "name: l\ncoordinates: [p, q]\nlagrangian: (p'^2 + (q' + p')^2)/2 - " \
+    "((p^2 + (" B ")*(q + p)^2)/2 + p^2*(q + p) + (" EPS ")*(q + p)^3)\n"
+    static const struct {
+        const char *text, *plane;
+        unsigned order;
+    } row[] = {{TURNED("2", "1/3"), "q = p", 3},
+               {SHEARED("2", "1/3"), "p = 0", 3},
+               {SHEARED("1", "1/5"), "p = 0", 3},
+               {TURNED("1", "2"), "q = p", 0},
+               {SHEARED("7/3", "2"), "p = 0", 0},
+               {SHEARED("1", "1/3"), "p = 0", 0},
+               {PLANE("(x^2 + y^2)/2 + x^2*y + y^3/3"), "y = x", 0},
+               {PLANE("(x^2 + y^2)/2 + x^2*y + y^3/3"), "y = -x", 0},
+               {PLANE("x^2 + x^3 + y^3"), "y = 0", 0}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
-        absence_case c = absence_case_text(row[i][0]);
-        nh_normal_equation *e = equation_of(&c, row[i][1]);
-        nh_higher *h = nh_higher_of(c.arena, c.shape, e);
-        cr_expect(h->refuted, "%s: %s", row[i][1], h->obstacle);
-        cr_expect_eq(h->order, 3);
-        cr_expect_eq(h->exponent, 3);
+        absence_case c = absence_case_text(row[i].text);
+        nh_normal_equation *e = equation_of(&c, row[i].plane);
+        nh_higher *h = nh_higher_of(c.arena, c.shape, e, true);
+        cr_expect(h->applies, "%s: %s", row[i].text, h->obstacle);
+        cr_expect_eq(h->refuted, row[i].order > 0, "%s: %s", row[i].text, h->obstacle);
+        cr_expect_eq(h->order, row[i].order, "%s: order %u", row[i].text, h->order);
         nh_normal_equation_clear(e);
         absence_case_clear(&c);
     }
@@ -131,12 +145,60 @@ Test(higher, parameters)
         snprintf(text, sizeof text, "name: g\ncoordinates: [x, y]\n%s", row[i].text);
         absence_case c = absence_case_text(text);
         nh_normal_equation *e = equation_of(&c, "x = 0");
-        nh_higher *h = nh_higher_of(c.arena, c.shape, e);
+        nh_higher *h = nh_higher_of(c.arena, c.shape, e, true);
         cr_expect(h->refuted, "%s: %s", row[i].text, h->obstacle);
         cr_expect_eq(h->generic, row[i].generic, "%s", row[i].text);
         nh_normal_equation_clear(e);
         absence_case_clear(&c);
     }
+}
+
+/* n = 20 takes 128 bits, and is not tried where little may be spent. */
+Test(higher, what_costs_little)
+{
+    absence_case c = absence_case_text(PLANE("x^2/2 + y^2 + x^2*y + 2/210*y^3"));
+    nh_normal_equation *e = equation_of(&c, "x = 0");
+    nh_higher *h = nh_higher_of(c.arena, c.shape, e, true);
+    cr_expect(h->refuted && h->exponent == 20 && h->bits == 128, "%s", h->obstacle);
+    h = nh_higher_of(c.arena, c.shape, e, false);
+    cr_expect(h->applies && !h->refuted && !h->order);
+    cr_expect_not_null(strstr(h->obstacle, "--absence"));
+    nh_normal_equation_clear(e);
+    absence_case_clear(&c);
+}
+
+/* ---- the whole answer ---- */
+
+Test(higher, answer)
+{
+    nh_error error = {0};
+    for (int everything = 0; everything < 2; everything++) {
+        nh_analysis *r = absence_of_text(PLANE("(x^2 + 2*y^2)/2 + x^2*y + y^3/3"), &error);
+        cr_assert(r, "%s", error.what);
+        nh_absence_find(r, everything);
+        const nh_absence *a = r->absence;
+        const char *words = nh_absence_words_sentence(r);
+        cr_expect_eq(a->verdict, NH_ABSENCE_NONE_ELSE, "%s", a->obstacle);
+        cr_expect_eq(a->at_most, 1);
+        cr_expect(!a->rational && !a->contradiction && !a->obstacle);
+        cr_expect_not_null(strstr(words, "the variational equation of order 3 along them has a logarithm"), "%s", words);
+        cr_expect_not_null(strstr(words, "meromorphic near the complex motions x = 0 of energy 1/7 is a function of those found"), "%s", words);
+        nh_analysis_free(r);
+    }
+}
+
+/* A logarithm at order 3, and a group of first order that is {1, -1}; it is integrable. */
+Test(higher, a_square_root_proves_nothing)
+{
+    nh_error error = {0};
+    nh_analysis *r = absence_of_text("name: c\ncoordinates: [u, x, y]\nlagrangian: u'^2/2 + 2*u^3 - 4*u\n"
+                                     "constraints: [\"x' = x*u'/(2*(u - 1))\", \"y' = x^3\"]\ndependent: [x, y]\n"
+                                     "domain: {u: [1.5, 2.5], x: [0.5, 1]}\n", &error);
+    cr_assert(r, "%s", error.what);
+    cr_expect_eq(r->absence->verdict, NH_ABSENCE_SETTLED);
+    cr_expect_null(r->absence->contradiction);
+    for (size_t i = 0; i < r->absence->attempts; i++) cr_expect_null(r->absence->attempt[i].higher);
+    nh_analysis_free(r);
 }
 
 /* ---- other primes ---- */
@@ -361,7 +423,6 @@ Test(higher, commutators_by_integration)
         double distance[JETS];
         if (FAMILY[i].n < 0) continue;
         commutator(&FAMILY[i], distance);
-        printf("%s %g %g %g %g\n", FAMILY[i].name, distance[0], distance[1], distance[2], distance[3]);
         for (int k = 0; k < 3; k++) cr_expect_lt(distance[k], 1e-4, "%s: order %d, %g", FAMILY[i].name, k, distance[k]);
         if (FAMILY[i].order) cr_expect_gt(distance[3], 1e-2, "%s: order 3, %g", FAMILY[i].name, distance[3]);
         else cr_expect_lt(distance[3], 1e-4, "%s: order 3, %g", FAMILY[i].name, distance[3]);

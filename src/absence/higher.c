@@ -14,6 +14,7 @@ enum {
     first_bits = 64,
     last_bits = 4 * first_bits,
     digits = 12,
+    usual_exponent = 12,
     before_prime = 1 << 30, /* the first is above it */
     primes = 8,             /* that are tried */
     plane_letters = 4,
@@ -27,6 +28,7 @@ typedef struct {
     const nh_model *model;
     const nh_plane *plane;
     nh_ex u, z, rate[NH_HIGHER_DIRECTIONS]; /* with parameters as symbols */
+    bool everything;
     nh_higher_system system;
     nh_higher *out;
 } work;
@@ -159,7 +161,8 @@ static bool by_multiplier(work *w)
     acb_init(trace);
     arb_init(size);
     bool found = false;
-    for (long bits = first_bits; bits <= last_bits && !found; bits *= 2) {
+    long most = w->everything ? last_bits : first_bits;
+    for (long bits = first_bits; bits <= most && !found; bits *= 2) {
         found = nh_higher_multiplier(&w->system, bits, trace, size);
         out->bits = bits;
     }
@@ -217,6 +220,10 @@ static void decide(work *w, const nh_normal_equation *equation)
 {
     nh_higher *out = w->out;
     out->exponent = w->system.exponent;
+    if (!w->everything && out->exponent > usual_exponent) {
+        out->obstacle = "the series of higher variational equations are long: --absence tries them";
+        return;
+    }
     find_logarithm(w);
     if (!out->order) return;
     out->refuted = by_solution(w) || by_multiplier(w);
@@ -228,7 +235,8 @@ static void decide(work *w, const nh_normal_equation *equation)
                                         out->order);
 }
 
-nh_higher *nh_higher_of(nh_arena *arena, const nh_closed_shape *shape, const nh_normal_equation *equation)
+nh_higher *nh_higher_of(nh_arena *arena, const nh_closed_shape *shape, const nh_normal_equation *equation,
+                        bool everything)
 {
     nh_higher *out = nh_arena_alloc(arena, sizeof *out);
     work w = {.arena = arena,
@@ -236,6 +244,7 @@ nh_higher *nh_higher_of(nh_arena *arena, const nh_closed_shape *shape, const nh_
               .shape = shape,
               .model = shape->model,
               .plane = equation->plane,
+              .everything = everything,
               .out = out};
     nh_foreign_memory_begin();
     nh_higher_system_init(&w.system);

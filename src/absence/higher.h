@@ -48,7 +48,9 @@ typedef struct {
     bool generic;           /* so too for all values of the parameters outside countably many hypersurfaces */
 } nh_higher;
 
-/* Of the motion of an equation without obstacle; in the arena. */
-nh_higher *nh_higher_of(nh_arena *arena, const nh_closed_shape *shape, const nh_normal_equation *equation);
+/* Of the motion of an equation without obstacle; in the arena.  `everything`: with n up to 30 and balls of up to 256
+ * bits, which can take a few tenths of a second; else with what takes some hundredths. */
+nh_higher *nh_higher_of(nh_arena *arena, const nh_closed_shape *shape, const nh_normal_equation *equation,
+                        bool everything);
 
 #endif

@@ -44,7 +44,7 @@ static bool returns(const acb_mat_t g, long bits)
     return good;
 }
 
-/* Is the trace of a matrix of determinant 1 certainly not in [-2, 2], so that no multiplier has the absolute value 1? */
+/* Is the trace of a matrix of determinant 1 certainly not in [-2, 2]?  Then no multiplier has the absolute value 1. */
 static bool stretches(const acb_t trace)
 {
     arb_t size;
@@ -123,7 +123,8 @@ bool nh_higher_multiplier(const nh_higher_system *s, long bits, acb_t trace, arb
 
 /* ---- solutions ---- */
 
-/* c(j), the factor of p_j x^(j + 1) in  sigma P'' + (odd ? 3/2 : 1/2) sigma' P' + ((odd ? sigma''/2 : 0) - normal) P. */
+/* sigma P'' + first P' + zeroth P for z = P:      first = sigma'/2,    zeroth = -normal
+ *                              for z = u' P:   first = 3 sigma'/2,  zeroth = sigma''/2 - normal */
 typedef struct {
     fmpq_poly_t first, zeroth; /* factors of P' and of P */
     const fmpq_poly_struct *second;

@@ -1,7 +1,8 @@
 /* higher_series: Laurent's series of higher variational equations at the pole of the motion, modulo a prime.
  *
  *     u_0 = a t^-2 + ..,  a = 4/sigma_3;  the coefficient of t^4 is fixed by the level
- *     u_k'' - f_u(u_0, 0) u_k,  z_k'' - g_z(u_0, 0) z_k = what lower orders give
+ *     z_k'' - g_z(u_0, 0) z_k = what lower orders give
+ *     u_k'' - f_u(u_0, 0) u_k = what z_k and lower orders give
  *
  * The coefficient of t^m is multiplied by m (m - 1) - 12, or m (m - 1) - n (n + 1), and is free where that is 0: at
  * m = -3, 4, or -n, n + 1; the other side has to be 0 there, or the solution has a logarithm.  For |m| below the prime

@@ -4,7 +4,7 @@
 #include "graph/dag.h"
 #include "graph/monomials.h"
 
-enum { most_terms = 200, most_exponent = 60, cubic = 3 };
+enum { most_terms = 100, most_exponent = 30, cubic = 3 };
 
 void nh_higher_system_init(nh_higher_system *s)
 {

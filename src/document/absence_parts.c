@@ -41,6 +41,20 @@ nh_absence_parts_reason nh_absence_parts_reason_of(const nh_absence *a)
     return special ? NH_ABSENCE_BY_BLOCK : NH_ABSENCE_BY_NOTHING;
 }
 
+const char *nh_absence_parts_short(nh_absence_parts_reason by)
+{
+    static const char *const words[] = {"Galois group SL(2)",
+                                        "a block with the Galois group SL(2)",
+                                        "Galois group",
+                                        "a residue is not rational",
+                                        "an irregular point",
+                                        "monodromy, in balls",
+                                        "a logarithm",
+                                        "homogeneous potential",
+                                        "normal variational equation"};
+    return words[by];
+}
+
 /* SL(2) as the whole group, and one block of it against commuting integrals, are their own commutator groups. */
 bool nh_absence_parts_periodic(const nh_absence *a)
 {

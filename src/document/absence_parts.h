@@ -22,6 +22,8 @@ typedef enum {
     NH_ABSENCE_BY_NOTHING
 } nh_absence_parts_reason;
 nh_absence_parts_reason nh_absence_parts_reason_of(const nh_absence *absence);
+/* "Galois group SL(2)", "a logarithm": for a first screen. */
+const char *nh_absence_parts_short(nh_absence_parts_reason reason);
 /* Is anything excluded, and no error of the program told? */
 bool nh_absence_parts_excludes(const nh_absence *absence);
 /* "none else", "dependent", "at most", "not Liouville integrable", "open", "settled"; "contradiction" where one is
