@@ -80,6 +80,7 @@ static inline unsigned absence_by(const nh_absence *a)
     for (size_t k = 0; k < a->attempts; k++) {
         if (absence_attempt_by_kovacic(&a->attempt[k])) by |= BY_KOVACIC;
         if (absence_attempt_by_balls(&a->attempt[k])) by |= BY_BALLS;
+        if (a->attempt[k].higher && a->attempt[k].higher->refuted) by |= BY_LOGARITHM;
     }
     return by;
 }

@@ -10,13 +10,29 @@ enum { USUAL_PLANES = 8, MOST_PLANES = 64, MOST_LEVELS = 3 };
 
 /* ---- one attempt ---- */
 
+/* Has the equation of a higher order excluded all integrals but functions of the energy? */
+static bool by_higher(const nh_absence_attempt *attempt) { return attempt->higher && attempt->higher->refuted; }
+
+/* How many independent integrals there can be, by this attempt, which has an equation. */
+static size_t most_integrals(const nh_absence *absence, const nh_absence_attempt *attempt)
+{
+    return by_higher(attempt) ? 1 : absence->shape->count - 1 - attempt->orbit;
+}
+
 /* Every integral of the class is a function of those found (2), or depends on them (1), by this attempt; else 0. */
 static int closes(const nh_absence *absence, const nh_absence_attempt *attempt)
 {
     const nh_normal_equation *equation = attempt->equation;
-    if (equation->obstacle || !attempt->orbit) return 0;
+    if (equation->obstacle) return 0;
+    if (by_higher(attempt)) return absence->known == 1 ? 2 : 0;
+    if (!attempt->orbit) return 0;
     if (attempt->orbit == equation->dimension && equation->single_valued) return 2;
     return absence->known == absence->shape->count - 1 - attempt->orbit ? 1 : 0;
+}
+
+static bool generic(const nh_absence_attempt *attempt)
+{
+    return by_higher(attempt) ? attempt->higher->generic : attempt->equation->generic;
 }
 
 /* Does attempt a say more than b?  First what closes the list, then the larger class of functions, then generic
@@ -27,7 +43,7 @@ static bool better(const nh_absence *absence, const nh_absence_attempt *a, const
     if (x != y) return x > y;
     if (a->orbit != b->orbit && !x) return a->orbit > b->orbit;
     if (a->rational != b->rational) return b->rational;
-    return a->equation->generic && !b->equation->generic;
+    return generic(a) && !generic(b);
 }
 
 static bool enough(const nh_absence *absence, const nh_absence_attempt *attempt)
@@ -59,7 +75,7 @@ static bool try_plane(nh_arena *arena, nh_absence *absence, const nh_plane *plan
             nh_normal_equation_clear(attempt->equation);
             continue;
         }
-        if (!nh_absence_attempt_run(arena, attempt, absence->everything)) {
+        if (!nh_absence_attempt_run(arena, absence->shape, attempt, absence->everything)) {
             nh_normal_equation_clear(attempt->equation);
             return false;
         }
@@ -83,7 +99,9 @@ static void try_planes(nh_arena *arena, nh_absence *absence, const nh_known_inte
         if (try_plane(arena, absence, &plane[i], known)) break;
     for (size_t i = 0; i < absence->attempts; i++)
         if (!absence->attempt[i].equation->obstacle) nh_normal_equation_clear(absence->attempt[i].equation);
-    if (absence->best == SIZE_MAX || !absence->attempt[absence->best].orbit) absence->best = absence->attempts;
+    if (absence->best == SIZE_MAX) absence->best = absence->attempts;
+    else if (!absence->attempt[absence->best].orbit && !closes(absence, &absence->attempt[absence->best]))
+        absence->best = absence->attempts;
 }
 
 /* ---- what follows ---- */
@@ -113,12 +131,12 @@ static void from_attempt(nh_absence *absence, const nh_known_integrals *known)
     const nh_absence_attempt *a = &absence->attempt[absence->best];
     int closed = closes(absence, a);
     absence->verdict = closed == 2 ? NH_ABSENCE_NONE_ELSE : closed == 1 ? NH_ABSENCE_DEPENDENT : NH_ABSENCE_AT_MOST;
-    absence->at_most = absence->shape->count - 1 - a->orbit;
+    absence->at_most = most_integrals(absence, a);
     absence->rational = a->rational;
     /* SL(2) is its own commutator group, so a covering of the motion that opens an angle has it, too */
     bool own = a->kovacic && a->kovacic->group == NH_GROUP_SL2 && a->orbit <= 2;
     absence->periodic = a->equation->periodic && !own;
-    absence->generic = a->equation->generic && (closed != 1 || all_generic(known));
+    absence->generic = generic(a) && (closed != 1 || all_generic(known));
 }
 
 /* A straight line of a homogeneous potential: two degrees of freedom have no integral besides the energy; more are not
@@ -159,7 +177,7 @@ static void compare(nh_arena *arena, nh_absence *absence)
 {
     for (size_t i = 0; i < absence->attempts; i++) {
         const nh_absence_attempt *a = &absence->attempt[i];
-        size_t at_most = absence->shape->count - 1 - a->orbit;
+        size_t at_most = most_integrals(absence, a);
         if (a->equation->obstacle || absence->known <= at_most) continue;
         absence->contradiction =
             nh_arena_printf(arena, "the motions %s allow at most %zu independent integrals, and %zu are proved",

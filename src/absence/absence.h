@@ -4,6 +4,7 @@
 #define NH_ABSENCE_H
 
 #include "absence/darboux.h"
+#include "absence/higher.h"
 #include "absence/kovacic.h"
 #include "absence/monodromy.h"
 #include "absence/normal_equation.h"
@@ -18,6 +19,7 @@ typedef struct {
     nh_kovacic *kovacic;          /* or NULL: it does not apply, or was not run */
     nh_monodromy *monodromy;
     nh_residues *residues;
+    nh_higher *higher;    /* or NULL: it does not apply, or the group of the first order excludes enough */
     size_t orbit;         /* e: certified dimension of an orbit of the group */
     bool rational;        /* an irregular point was used: only rational integrals are excluded */
     const char *obstacle; /* why the orbit is smaller than the dimension, or NULL */

@@ -1,6 +1,7 @@
 /* The engines on one normal equation: what dimension do orbits of its group have at least?
  *
- * Kovacic's algorithm and residues take milliseconds.  The monodromy in balls takes a second, and is for --absence. */
+ * Kovacic's algorithm, residues and logarithms of higher order take milliseconds.  The monodromy in balls takes a
+ * second, and is for --absence. */
 #include "absence/absence_internal.h"
 #include "absence/polynomial_text.h"
 #include "base/progress.h"
@@ -96,7 +97,16 @@ static void first_order(nh_arena *arena, nh_absence_attempt *attempt, const nh_l
     else if (!attempt->obstacle) attempt->obstacle = "all residues are rational";
 }
 
-bool nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, bool everything)
+/* Where the group of the first order is open. */
+static void higher_order(nh_arena *arena, const nh_closed_shape *shape, nh_absence_attempt *attempt, bool everything)
+{
+    nh_higher *higher = nh_higher_of(arena, shape, attempt->equation, everything);
+    if (!higher->applies || nh_interrupted()) return;
+    attempt->higher = higher;
+    attempt->obstacle = higher->obstacle;
+}
+
+bool nh_absence_attempt_run(nh_arena *arena, const nh_closed_shape *shape, nh_absence_attempt *attempt, bool everything)
 {
     const nh_normal_equation *equation = attempt->equation;
     for (size_t i = 0; i < equation->blocks; i++) {
@@ -107,13 +117,15 @@ bool nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, bool e
         if (block->size == 2 && !refuted) second_order(arena, attempt, block);
     }
     if (nh_interrupted()) return false;
+    if (attempt->kovacic && attempt->kovacic->group == NH_GROUP_OPEN) higher_order(arena, shape, attempt, everything);
+    bool refuted = attempt->higher && attempt->higher->refuted;
     nh_monodromy *monodromy = everything ? nh_monodromy_try(arena, equation->blocks, equation->block) : NULL;
     if (monodromy && !nh_interrupted()) {
         attempt->monodromy = monodromy;
         bound(attempt, attempt->monodromy->rank, false);
-        if (!attempt->obstacle) attempt->obstacle = attempt->monodromy->obstacle;
+        if (!attempt->obstacle && !refuted) attempt->obstacle = attempt->monodromy->obstacle;
     }
-    if (attempt->orbit == equation->dimension) attempt->obstacle = NULL;
+    if (attempt->orbit == equation->dimension || refuted) attempt->obstacle = NULL;
     else if (!attempt->obstacle) attempt->obstacle = "its equation has more than two unknowns, which --absence tries";
     return true;
 }

@@ -11,6 +11,7 @@ typedef struct {
     const char *obstacle; /* why there is no equation, in words; or NULL */
     nh_ex level;          /* the rational value of the integral that determines the curve */
     const char *curve;    /* "x'^2 = 2/7 - x^2" at the level */
+    nh_ex square;         /* its right side, if there is a curve */
     const char *variable; /* "y", "tan(theta/2)" */
     bool single_valued;   /* all letters are algebraic functions on the curve, and the integrals used have one value */
     bool periodic;        /* the moving coordinate is an angle: integrals have period 2 pi in it */

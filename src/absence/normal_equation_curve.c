@@ -181,7 +181,8 @@ static void describe(nh_normal_work *work, const fmpq_t h)
     nh_dag *dag = work->dag;
     const char *name = nh_name_of(dag, work->plane->y[0]);
     work->out->level = number_of(dag, h);
-    char *square = nh_print_string(dag, square_of(work, work->out->level));
+    work->out->square = square_of(work, work->out->level);
+    char *square = nh_print_string(dag, work->out->square);
     work->out->curve = nh_arena_printf(work->arena, "%s^2 = %s", nh_name_of(dag, work->plane->y[1]), square);
     work->out->variable = work->plane->angle ? nh_arena_printf(work->arena, "tan(%s/2)", name) : name;
     nh_free(square);

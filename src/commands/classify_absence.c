@@ -231,14 +231,24 @@ static void choose_sides(nh_classified_absence *x)
     }
 }
 
-/* With the parameter as a letter, at the first value where others are excluded: so too for all values but countably
- * many? */
+/* By a logarithm of higher order, which often exists at single values only. */
+static bool by_logarithm(const nh_classified_value *v)
+{
+    const nh_absence *a = v->result->absence;
+    const nh_higher *higher = a->best < a->attempts ? a->attempt[a->best].higher : NULL;
+    return higher && higher->refuted;
+}
+
+/* With the parameter as a letter, at the first value where others are excluded, if possible at first order: so too for
+ * all values but countably many? */
 static void decide_for_almost_all(nh_classified_absence *x, const nh_classify_request *q)
 {
-    for (size_t k = 0; k < x->values && !x->letter && !nh_interrupted(); k++) {
+    for (size_t i = 0; i < 2 * x->values && !x->letter && !nh_interrupted(); i++) {
+        size_t k = i % x->values;
         nh_error none;
         nh_error_clear(&none);
         if (x->value[k].side != NH_CLASSIFIED_EXCLUDED || x->value[k].result->absence->rational) continue;
+        if (by_logarithm(&x->value[k]) != (i >= x->values)) continue;
         x->letter = decide(x, q, &x->value[k], false, &none);
         if (!x->letter) return;
         const nh_absence *a = x->letter->absence;

@@ -29,6 +29,7 @@ nh_absence_parts_reason nh_absence_parts_reason_of(const nh_absence *a)
 {
     const nh_absence_attempt *t = nh_absence_parts_best(a);
     if (!t) return a->darboux && a->darboux->refuted ? NH_ABSENCE_BY_DARBOUX : NH_ABSENCE_BY_NOTHING;
+    if (t->higher && t->higher->refuted) return NH_ABSENCE_BY_LOGARITHM;
     /* over an irregular point the group is larger than that of closed paths, which balls speak of */
     bool special = t->kovacic && t->kovacic->group == NH_GROUP_SL2 && (t->kovacic->regular || a->rational);
     bool triangular = t->kovacic && t->kovacic->group == NH_GROUP_TRIANGULAR;
@@ -39,6 +40,20 @@ nh_absence_parts_reason nh_absence_parts_reason_of(const nh_absence *a)
         return NH_ABSENCE_BY_TRIANGULAR;
     if (t->monodromy && t->monodromy->rank >= t->orbit) return NH_ABSENCE_BY_MONODROMY;
     return special ? NH_ABSENCE_BY_BLOCK : NH_ABSENCE_BY_NOTHING;
+}
+
+const char *nh_absence_parts_short(nh_absence_parts_reason by)
+{
+    static const char *const words[] = {"Galois group SL(2)",
+                                        "a block with the Galois group SL(2)",
+                                        "Galois group",
+                                        "a residue is not rational",
+                                        "an irregular point",
+                                        "monodromy, in balls",
+                                        "a logarithm",
+                                        "homogeneous potential",
+                                        "normal variational equation"};
+    return words[by];
 }
 
 /* SL(2) as the whole group, and one block of it against commuting integrals, are their own commutator groups. */
@@ -55,6 +70,8 @@ const char *nh_absence_parts_group(nh_arena *arena, const nh_absence_attempt *t)
     const nh_kovacic *k = t->kovacic;
     static const char *const groups[] = {"SL(2)", "SL(2) or triangular", "open", "undecided"};
     if (k && (k->group == NH_GROUP_SL2 || k->group == NH_GROUP_TRIANGULAR)) return groups[k->group];
+    if (t->higher && t->higher->refuted)
+        return nh_arena_printf(arena, "connected, and not abelian at order %u", t->higher->order);
     if (t->residues && t->residues->verdict == NH_RESIDUE_MEROMORPHIC) return "a residue is not rational";
     if (t->residues && t->residues->verdict == NH_RESIDUE_RATIONAL) return "infinite, by an irregular point";
     if (t->orbit && t->equation)

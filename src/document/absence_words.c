@@ -67,6 +67,12 @@ static void put_reason(const nh_absence_writer *w)
         put_orbit(w, "monodromy");
         nh_text_addf(w->out, "; proved in balls of %ld bits", t->monodromy->bits);
         break;
+    case NH_ABSENCE_BY_LOGARITHM:
+        nh_text_addf(w->out, "the variational equation of order %u along them has a logarithm at their pole, and ",
+                     t->higher->order);
+        nh_text_add(w->out, "the group of the first one is connected");
+        put_prime(w, t->higher->prime);
+        break;
     case NH_ABSENCE_BY_DARBOUX:
         nh_text_addf(
             w->out,
@@ -80,21 +86,12 @@ static void put_reason(const nh_absence_writer *w)
     }
 }
 
-static void put_short_reason(const nh_absence_writer *w)
-{
-    static const char *const words[] = {"Galois group SL(2)",    "a block with the Galois group SL(2)",
-                                        "Galois group",          "a residue is not rational",
-                                        "an irregular point",    "monodromy, in balls",
-                                        "homogeneous potential", "normal variational equation"};
-    nh_text_add(w->out, words[nh_absence_parts_reason_of(w->a)]);
-}
-
 static void put_evidence(const nh_absence_writer *w)
 {
     bool generic = w->a->generic && w->r->question->system->parameters;
     nh_text_add(w->out,
                 nh_absence_parts_reason_of(w->a) == NH_ABSENCE_BY_DARBOUX && !w->brief ? " (theorem " : " (theorem; ");
-    if (w->brief) put_short_reason(w);
+    if (w->brief) nh_text_add(w->out, nh_absence_parts_short(nh_absence_parts_reason_of(w->a)));
     else put_reason(w);
     if (generic)
         nh_text_add(w->out, w->brief ? "; so too for all parameters outside countably many hypersurfaces"

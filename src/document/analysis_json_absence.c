@@ -57,6 +57,35 @@ static void put_residue(nh_json *to, const nh_residues *s)
     nh_json_put_text(item, "residue", s->residue);
 }
 
+static void put_higher(nh_json *to, const nh_higher *h)
+{
+    static const char *const connected[] = {NULL, "multiplier", "solution"};
+    if (!h) {
+        nh_json_put_null(to, "higher");
+        return;
+    }
+    nh_json *item = nh_json_put_object(to, "higher");
+    nh_json_put_bool(item, "refuted", h->refuted);
+    nh_json_put_number(item, "exponent", (double)h->exponent);
+    if (h->order) {
+        nh_json_put_number(item, "order", h->order);
+        nh_json_put_bool(item, "across", h->across);
+        nh_json_put_number(item, "power", (double)h->power);
+        nh_json_put_number(item, "prime", (double)h->prime);
+    } else {
+        nh_json_put_null(item, "order");
+        nh_json_put_null(item, "across");
+        nh_json_put_null(item, "power");
+        nh_json_put_null(item, "prime");
+    }
+    nh_json_put_text(item, "connected", connected[h->connected]);
+    nh_json_put_text(item, "multiplier", h->multiplier);
+    nh_json_put_text(item, "trace", h->trace);
+    nh_json_put_number(item, "bits", (double)h->bits);
+    nh_json_put_text(item, "solution", h->solution);
+    nh_json_put_text(item, "obstacle", h->obstacle);
+}
+
 static void put_attempt(const nh_analysis *r, nh_json *list, const nh_absence_attempt *t)
 {
     const nh_normal_equation *e = t->equation;
@@ -80,6 +109,7 @@ static void put_attempt(const nh_analysis *r, nh_json *list, const nh_absence_at
     put_certificate(item, t->kovacic);
     put_monodromy(item, e, t->monodromy);
     put_residue(item, t->residues);
+    put_higher(item, t->higher);
 }
 
 /* ---- potentials and states of rest ---- */

@@ -249,6 +249,32 @@ static void monodromy_facts(nh_pen *p, const nh_normal_equation *e, const nh_mon
     nh_pen_table_end(p);
 }
 
+static void higher_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *t)
+{
+    const nh_higher *h = t->higher;
+    nh_pen_heading(p, "Why the group of higher order is not abelian");
+    nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
+    equation_facts(p, arena, t);
+    nh_pen_fact(p, "Exponents", "%s and %zu, in the time from the pole of the motion",
+                h->exponent ? nh_arena_printf(arena, "-%ld", (long)h->exponent) : "0", (size_t)h->exponent + 1);
+    nh_pen_fact_begin(p, "Connected");
+    if (h->connected == NH_HIGHER_SOLUTION)
+        nh_pen_say(p, "the normal variational equation has the solution <%s>, so that its group is unipotent",
+                   h->solution);
+    else
+        nh_pen_say(p,
+                   "a closed path multiplies a solution of the normal variational equation by a number of absolute "
+                   "value %s; proved in balls of %ld bits",
+                   h->multiplier, h->bits);
+    nh_pen_close(p, NH_PEN_FACT);
+    nh_pen_fact_begin(p, "Logarithm");
+    nh_pen_say(p, "at order %zu, %s the plane: the series in the time from the pole ends before <%s>", (size_t)h->order,
+               h->across ? "across" : "along", nh_arena_printf(arena, "t^(%ld)", (long)h->power));
+    nh_pen_close(p, NH_PEN_FACT);
+    nh_pen_fact(p, "Prime", "%zu", (size_t)h->prime);
+    nh_pen_close(p, NH_PEN_FACTS);
+}
+
 static void residue_facts(nh_pen *p, const nh_residues *s)
 {
     const char *at = s->factor && strcmp(s->factor, "1/x") != 0 ? s->factor : NULL; /* NULL: infinity */
@@ -274,6 +300,7 @@ static void certificate(nh_pen *p, const nh_analysis *r)
     case NH_ABSENCE_BY_RESIDUE:
     case NH_ABSENCE_BY_IRREGULAR: residue_facts(p, t->residues); break;
     case NH_ABSENCE_BY_MONODROMY: monodromy_facts(p, t->equation, t->monodromy); break;
+    case NH_ABSENCE_BY_LOGARITHM: higher_facts(p, r->arena, t); break;
     case NH_ABSENCE_BY_DARBOUX:
     case NH_ABSENCE_BY_NOTHING: break;
     }

@@ -210,6 +210,7 @@ static void put_engines(const nh_absence *a, nh_json *to)
     if (t->kovacic && t->kovacic->group == NH_GROUP_SL2) nh_json_add_text(list, "kovacic");
     if (t->monodromy && t->monodromy->rank == t->monodromy->size) nh_json_add_text(list, "monodromy");
     if (t->residues && t->residues->verdict != NH_RESIDUE_OPEN) nh_json_add_text(list, "residues");
+    if (t->higher && t->higher->refuted) nh_json_add_text(list, "logarithm");
 }
 
 static void put_value(const nh_classified_absence *x, const nh_classified_value *v, nh_json *to)
