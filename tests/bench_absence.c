@@ -25,11 +25,13 @@ static void put_engines(const nh_absence *a)
 {
     const nh_absence_attempt *t = absence_shown(a);
     printf(" %s | ", t && t->kovacic ? nh_kovacic_word(t->kovacic->group) : "-");
-    if (t && t->monodromy) printf("%zu of %zu | ", t->monodromy->rank, t->monodromy->size);
+    if (t && t->higher && t->higher->refuted) printf("logarithm at order %u | ", t->higher->order);
+    else if (t && t->monodromy) printf("%zu of %zu | ", t->monodromy->rank, t->monodromy->size);
     else if (t && t->residues) printf("residues: %s | ", t->residues->verdict == NH_RESIDUE_OPEN ? "open" : t->residues->factor);
     else printf("- | ");
     printf("%s | ", !a->darboux || !a->darboux->applies ? "-" : a->darboux->refuted ? a->darboux->refutation.eigenvalue : "open");
-    if (t && t->kovacic) printf("%lu | ", (unsigned long)t->kovacic->prime);
+    if (t && t->higher && t->higher->refuted) printf("%lu | ", (unsigned long)t->higher->prime);
+    else if (t && t->kovacic) printf("%lu | ", (unsigned long)t->kovacic->prime);
     else printf("- | ");
 }
 
@@ -68,7 +70,7 @@ static void table_row(const absence_system *s, sums *sum)
 static size_t table(void)
 {
     sums sum = {0};
-    puts("| system | other integrals | known | motions | Kovacic | balls | lines | prime | s |\n|---|---|---|---|---|---|---|---|---|");
+    puts("| system | other integrals | known | motions | Kovacic | balls, or higher order | lines | prime | s |\n|---|---|---|---|---|---|---|---|---|");
     for (size_t i = 0; i < ABSENCE_COUNT; i++) table_row(&ABSENCE[i], &sum);
     printf("\n%zu systems: at %zu a theorem excludes all that are not known to exist, %zu are open, %zu are not as expected; %.1f s for all decisions.\n", sum.rows, sum.excluded, sum.open,
            sum.wrong, sum.seconds);

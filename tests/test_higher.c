@@ -7,6 +7,7 @@
 #include "document/absence_words.h"
 
 #include "absence.h"
+#include "sweep.h"
 
 #include <complex.h>
 
@@ -127,6 +128,49 @@ Test(higher, linear_changes)
         nh_normal_equation_clear(e);
         absence_case_clear(&c);
     }
+}
+
+/* Integrable potentials (see A. P. Fordy 1991, and two oscillators that separate) with x = a p, y = c p + d q + s: all planes, three
+ * levels. */
+static void stays_open(const char *potential, int a, int c, int d, int s, size_t *tried)
+{
+    char text[1000], x[32], y[64], V[600] = "";
+    snprintf(x, sizeof x, "(%d*p)", a);
+    snprintf(y, sizeof y, "(%d*p + %d*q + %d)", c, d, s);
+    for (const char *at = potential; *at; at++) {
+        char letter[2] = {*at, 0};
+        strcat(V, *at == 'x' ? x : *at == 'y' ? y : letter);
+    }
+    snprintf(text, sizeof text, "name: i\ncoordinates: [p, q]\nlagrangian: ((%d*p')^2 + (%d*p' + %d*q')^2)/2 - (%s)\n", a, c, d, V);
+    absence_case k = absence_case_text(text);
+    nh_ex energy = k.of.model->E;
+    bool generic = true;
+    nh_known_integrals known = {1, &energy, &generic, 0};
+    for (size_t i = 0; i < k.planes; i++)
+        for (size_t n = 0; n < 3; n++) {
+            nh_normal_equation *e = nh_normal_equation_of(k.arena, k.shape, &k.plane[i], &known, n);
+            if (e->obstacle) continue;
+            nh_higher *h = nh_higher_of(k.arena, k.shape, e, true);
+            *tried += h->applies;
+            cr_expect(!h->refuted && !h->order, "%s, %s", text, k.plane[i].words);
+            nh_normal_equation_clear(e);
+        }
+    absence_case_clear(&k);
+}
+
+Test(higher, integrable_potentials_stay_open)
+{
+    static const char *const potential[] = {"(x^2 + y^2)/2 + x^2*y + 2*y^3", "(7*x^2 - 3*y^2)/2 + x^2*y + 2*y^3", "x^2*y + 2*y^3 - y/3",
+                                            "(x^2 + y^2)/2 + x^2*y + y^3/3", "x^2*y + y^3/3 + 2*y",           "(3*x^2 + 3*y^2)/2 - 2*x^2*y - 2/3*y^3",
+                                            "(x^2 + 16*y^2)/2 + x^2*y + 16/3*y^3", "x^2 + x^3 + y^3 + 2*y^2",  "x^4 + 3*x^2 + y^3 - y",
+                                            "x^2/2 + y^3 + y^2"};
+    size_t tried = 0, at = 0;
+    for (size_t i = 0; i < sizeof potential / sizeof *potential; i++)
+        for (int a = 1; a <= 2; a++)
+            for (int c = -1; c <= 2; c++)
+                for (int d = 1; d <= 2; d++)
+                    if (sweep_tries(at++, 5, 9)) stays_open(potential[i], a, c, d, a - d, &tried);
+    cr_expect_gt(tried, 40, "%zu", tried);
 }
 
 /* The exponent is the same for all B, and not for all eps; an exact solution exists at single values. */

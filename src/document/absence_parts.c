@@ -50,7 +50,7 @@ const char *nh_absence_parts_short(nh_absence_parts_reason by)
                                         "a residue is not rational",
                                         "an irregular point",
                                         "monodromy, in balls",
-                                        "a logarithm",
+                                        "a logarithm of higher order",
                                         "homogeneous potential",
                                         "normal variational equation"};
     return words[by];

@@ -321,8 +321,8 @@ static size_t lines_of(const char *words)
     return n;
 }
 
-/* What is left out where room is short, more and more: the other values of parameters; what is not excluded, but for the
- * letters that are left out; the letters of the equations, of which those left out then are told. */
+/* What is left out where room is short, more and more: the other values of parameters; what is not excluded, but for
+ * the letters that are left out; the letters of the equations, of which those left out then are told. */
 enum { all_words, for_these_values, few_exceptions, unnamed_letters };
 
 static const char *short_words(const nh_analysis *r, int short_of)

@@ -255,8 +255,10 @@ static void higher_facts(nh_pen *p, nh_arena *arena, const nh_absence_attempt *t
     nh_pen_heading(p, "Why the group of higher order is not abelian");
     nh_pen_open(p, NH_PEN_FACTS, NULL, NULL);
     equation_facts(p, arena, t);
-    nh_pen_fact(p, "Exponents", "%s and %zu, in the time from the pole of the motion",
-                h->exponent ? nh_arena_printf(arena, "-%ld", (long)h->exponent) : "0", (size_t)h->exponent + 1);
+    nh_pen_fact_begin(p, "Exponents");
+    nh_pen_say(p, "<%s> and <%s>, in the time from the pole of the motion",
+               nh_arena_printf(arena, "%ld", -(long)h->exponent), nh_arena_printf(arena, "%ld", (long)h->exponent + 1));
+    nh_pen_close(p, NH_PEN_FACT);
     nh_pen_fact_begin(p, "Connected");
     if (h->connected == NH_HIGHER_SOLUTION)
         nh_pen_say(p, "the normal variational equation has the solution <%s>, so that its group is unipotent",
