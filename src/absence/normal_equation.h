@@ -12,7 +12,8 @@ typedef struct {
     nh_ex level;          /* the rational value of the integral that determines the curve */
     const char *curve;    /* "x'^2 = 2/7 - x^2" at the level */
     const char *variable; /* "y", "tan(theta/2)" */
-    bool single_valued;   /* all letters are algebraic functions on the curve, and the integrals used have one value */
+    /* all letters are algebraic functions on the curve, and the integrals used, or all of them, have one value */
+    bool single_valued, all_single_valued;
     bool periodic;        /* the moving coordinate is an angle: integrals have period 2 pi in it */
     bool generic;         /* plane, integrals used and their number hold for all values of the parameters */
     size_t known;         /* integrals used, independent along the curve (the energy included): r */
