@@ -213,3 +213,10 @@ Test(absence_true, a_computation_that_was_ended_excludes_nothing)
     nh_interrupt_clear();
     nh_analysis_free(r);
 }
+
+/* h turns and y, which is no angle, does not come back: (1/z'^2 + y - 1/2) e^(2 y) is an integral, and periodic in h. */
+Test(absence_true, turns_that_are_not_closed)
+{
+    try_text("y' = h'", "coordinates: [{name: h, type: angle}, y, z]\nlagrangian: (h'^2 + y'^2 + z'^2)/2 - cos(h)\nconstraints: [\"y' = h'\"]\n"
+             "forces: [\"z = h'*z' + h'*z'^3*y\"]\n", 3);
+}

@@ -19,14 +19,23 @@ static size_t most_integrals(const nh_absence *absence, const nh_absence_attempt
     return by_higher(attempt) ? 1 : absence->shape->count - 1 - attempt->orbit;
 }
 
-/* Every integral of the class is a function of those found (2), or depends on them (1), by this attempt; else 0. */
+/* Does the class contain what has many values on the turning curve?  SL(2), its own commutator group, moves that too. */
+static bool turns(const nh_absence_attempt *attempt)
+{
+    const nh_kovacic *kovacic = attempt->kovacic;
+    return kovacic && kovacic->group == NH_GROUP_SL2 && kovacic->regular && attempt->orbit == 2;
+}
+
+/* Every integral of the class is a function of those found (2), or depends on them (1), by this attempt; else 0: so too
+ * where one of them is not of the class. */
 static int closes(const nh_absence *absence, const nh_absence_attempt *attempt)
 {
     const nh_normal_equation *equation = attempt->equation;
     if (equation->obstacle) return 0;
     if (by_higher(attempt)) return absence->known == 1 ? 2 : 0;
     if (!attempt->orbit) return 0;
-    if (attempt->orbit == equation->dimension && equation->single_valued) return 2;
+    if (attempt->orbit == equation->dimension) return equation->single_valued || turns(attempt) ? 2 : 0;
+    if (!equation->all_single_valued && !turns(attempt)) return 0;
     return absence->known == absence->shape->count - 1 - attempt->orbit ? 1 : 0;
 }
 

@@ -173,6 +173,7 @@ static bool hold(nh_normal_work *work)
     if (!good) nh_normal_equation_refuse(work, "the differential of the integral has no value on the plane");
     use(work, work->determines);
     for (size_t k = 0; k < work->known->count && good; k++) {
+        out->all_single_valued = out->all_single_valued && has_one_value(work, k);
         if (k == work->determines) continue;
         bool usable = slopes_of(work, k, slope);
         if (usable) nh_curve_field_mul(&work->field, &lambda, &slope[0], &energy[0]);

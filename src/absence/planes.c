@@ -1,7 +1,8 @@
 /* planes: candidates are rejected by numbers, and proved by zero tests.
  *
  *     coordinates that rest: 0; angles: 0, pi, pi/2, -pi/2
- *     moving:                one coordinate x; two with y = x, -x (angles: also x + pi, pi - x); more with y = x, -x
+ *     moving:                one coordinate x; two with y = x, -x (angles: also x + pi, pi - x); more with y = x, -x;
+ *                            angles with angles only: another coordinate does not come back after a turn
  *     velocity:              w with x' = alpha(x) w on the plane; the others 0 */
 #include "absence/planes.h"
 
@@ -384,7 +385,7 @@ static void pair(search *s, size_t i, size_t j)
 {
     const nh_closed_shape *shape = s->shape;
     size_t k = velocity_of(shape, i), l = velocity_of(shape, j);
-    if (k == shape->count || l == shape->count) return;
+    if (k == shape->count || l == shape->count || shape->angle[i] != shape->angle[j]) return;
     bool *fixed = nh_alloc_array(shape->count + 1, sizeof *fixed), angles = shape->angle[i] && shape->angle[j];
     fixed[i] = fixed[j] = true;
     for (int sign = 1; sign >= -1; sign -= 2)
@@ -407,7 +408,8 @@ static bool next_pattern(int *sign, size_t n)
     return false;
 }
 
-/* The candidate of a pattern; false where fewer than three move, the first backwards, or one has no velocity. */
+/* The candidate of a pattern; false where fewer than three move, the first backwards, angles with others, or one has no
+ * velocity. */
 static bool begin_pattern(search *s, const int *sign)
 {
     enum { fewest = 3 };
@@ -415,7 +417,8 @@ static bool begin_pattern(search *s, const int *sign)
     size_t n = shape->coordinates, first = n, moving = 0;
     for (size_t i = n; i-- > 0;) {
         if (!sign[i]) continue;
-        if (velocity_of(shape, i) == shape->count) return false;
+        if (velocity_of(shape, i) == shape->count || (first < n && shape->angle[i] != shape->angle[first]))
+            return false;
         first = i;
         moving++;
     }
