@@ -307,7 +307,13 @@ Test(higher, other_primes)
     }
     nh_higher_system s = system_of(&FAMILY[0]);
     nh_higher_logarithm found;
-    cr_expect(!nh_higher_logarithm_find(&s, 7, NH_HIGHER_ORDERS, &found), "7 divides the denominator of the level");
+    cr_expect(!nh_higher_logarithm_find(&s, 13, NH_HIGHER_ORDERS, &found), "too small");
+    nh_higher_system_clear(&s);
+    family other = FAMILY[0];
+    other.B = "2/1000003";
+    s = system_of(&other);
+    cr_expect(!nh_higher_logarithm_find(&s, 1000003, NH_HIGHER_ORDERS, &found), "a denominator");
+    cr_expect(nh_higher_logarithm_find(&s, 1000033, NH_HIGHER_ORDERS, &found) && found.order == 3);
     nh_higher_system_clear(&s);
 }
 

@@ -19,7 +19,7 @@ typedef struct {
     nh_kovacic *kovacic;          /* or NULL: it does not apply, or was not run */
     nh_monodromy *monodromy;
     nh_residues *residues;
-    nh_higher *higher;    /* or NULL: it does not apply, or the group of the first order excludes enough */
+    nh_higher *higher;    /* or NULL: it does not apply, or the first order excludes all */
     size_t orbit;         /* e: certified dimension of an orbit of the group */
     bool rational;        /* an irregular point was used: only rational integrals are excluded */
     const char *obstacle; /* why the orbit is smaller than the dimension, or NULL */

@@ -97,13 +97,14 @@ static void first_order(nh_arena *arena, nh_absence_attempt *attempt, const nh_l
     else if (!attempt->obstacle) attempt->obstacle = "all residues are rational";
 }
 
-/* Where the group of the first order is open. */
+/* Theorem L holds whatever the group of the first order is, if it is connected. */
 static void higher_order(nh_arena *arena, const nh_closed_shape *shape, nh_absence_attempt *attempt, bool everything)
 {
     nh_higher *higher = nh_higher_of(arena, shape, attempt->equation, everything);
     if (!higher->applies || nh_interrupted()) return;
     attempt->higher = higher;
-    attempt->obstacle = higher->obstacle;
+    if (!attempt->obstacle || !attempt->kovacic || attempt->kovacic->group == NH_GROUP_OPEN)
+        attempt->obstacle = higher->obstacle;
 }
 
 bool nh_absence_attempt_run(nh_arena *arena, const nh_closed_shape *shape, nh_absence_attempt *attempt, bool everything)
@@ -117,7 +118,7 @@ bool nh_absence_attempt_run(nh_arena *arena, const nh_closed_shape *shape, nh_ab
         if (block->size == 2 && !refuted) second_order(arena, attempt, block);
     }
     if (nh_interrupted()) return false;
-    if (attempt->kovacic && attempt->kovacic->group == NH_GROUP_OPEN) higher_order(arena, shape, attempt, everything);
+    if (attempt->orbit < equation->dimension) higher_order(arena, shape, attempt, everything);
     bool refuted = attempt->higher && attempt->higher->refuted;
     nh_monodromy *monodromy = everything ? nh_monodromy_try(arena, equation->blocks, equation->block) : NULL;
     if (monodromy && !nh_interrupted()) {

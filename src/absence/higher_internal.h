@@ -42,7 +42,8 @@ typedef struct {
 } nh_higher_logarithm;
 
 /* The first order up to `most` at which a logarithm is seen modulo the prime, for some fixed values of the constants.
- * False: a denominator, or the leading coefficient of sigma, is 0 modulo the prime, or the series get too long. */
+ * False: a denominator, or the leading coefficient of sigma, is 0 modulo the prime, the prime is below 2^16, so that
+ * the factors of the recursion might be 0, or the series get too long. */
 bool nh_higher_logarithm_find(const nh_higher_system *s, ulong prime, unsigned most, nh_higher_logarithm *out);
 
 /* A closed path of the motion with a multiplier whose absolute value is not 1, with balls of so many bits: the trace

@@ -15,7 +15,16 @@
 #include "absence/higher_internal.h"
 #include "base/memory.h"
 
-enum { shortest = 64, longest = 4096, nothing = 1 << 30, pole = -2, along_low = -3, along_high = 4, cubic = 3 };
+enum {
+    shortest = 64,
+    longest = 4096,
+    smallest_prime = 1 << 16,
+    nothing = 1 << 30,
+    pole = -2,
+    along_low = -3,
+    along_high = 4,
+    cubic = 3
+};
 
 /* sum c_i t^(low + i), known for exponents below `known`.  The series 0: low = known = nothing. */
 typedef struct {
@@ -353,6 +362,7 @@ bool nh_higher_logarithm_find(const nh_higher_system *s, ulong prime, unsigned m
 {
     int done = 0;
     *out = (nh_higher_logarithm){0};
+    if (prime < smallest_prime) return false;
     for (slong length = shortest; length <= longest && !done; length *= 2) done = find(s, prime, most, length, out);
     return done == 1 || done == -1;
 }
