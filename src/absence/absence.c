@@ -8,6 +8,9 @@
 /* Without --absence one level of a few planes is tried, and nothing more once one of them decides. */
 enum { USUAL_PLANES = 8, MOST_PLANES = 64, MOST_LEVELS = 3 };
 
+/* Of all continuations along closed paths together: no other one begins then.  About 10 seconds. */
+static const uint64_t most_work = (uint64_t)1 << 28;
+
 /* ---- one attempt ---- */
 
 /* Does the class contain what has many values on the turning curve?  SL(2), its own commutator group, moves that too. */
@@ -44,6 +47,16 @@ static bool enough(const nh_absence *absence, const nh_absence_attempt *attempt)
     return closes(absence, attempt) == 2 && !attempt->rational;
 }
 
+/* Why no monodromy is tried now, or NULL. */
+static const char *without_monodromy(const nh_absence *absence)
+{
+    uint64_t work = 0;
+    if (!absence->everything) return "its equation has more than two unknowns, which --absence tries";
+    for (size_t i = 0; i < absence->attempts; i++)
+        work += absence->attempt[i].monodromy ? absence->attempt[i].monodromy->work : 0;
+    return work >= most_work ? "the continuation along closed paths takes too much work" : NULL;
+}
+
 /* Tries one plane at its levels; true: nothing better can come. */
 static bool try_plane(nh_arena *arena, nh_absence *absence, const nh_plane *plane, const nh_known_integrals *known)
 {
@@ -56,7 +69,7 @@ static bool try_plane(nh_arena *arena, nh_absence *absence, const nh_plane *plan
             absence->attempts += n == 0; /* the same obstacle at another level says nothing more */
             return false;
         }
-        if (!nh_absence_attempt_run(arena, attempt, absence->everything)) {
+        if (!nh_absence_attempt_run(arena, attempt, without_monodromy(absence))) {
             nh_normal_equation_clear(attempt->equation);
             return false;
         }

@@ -95,7 +95,7 @@ static void first_order(nh_arena *arena, nh_absence_attempt *attempt, const nh_l
     else if (!attempt->obstacle) attempt->obstacle = "all residues are rational";
 }
 
-bool nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, bool everything)
+bool nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, const char *without_monodromy)
 {
     const nh_normal_equation *equation = attempt->equation;
     for (size_t i = 0; i < equation->blocks; i++) {
@@ -106,13 +106,13 @@ bool nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, bool e
         if (block->size == 2 && !refuted) second_order(arena, attempt, block);
     }
     if (nh_interrupted()) return false;
-    nh_monodromy *monodromy = everything ? nh_monodromy_try(arena, equation->blocks, equation->block) : NULL;
+    nh_monodromy *monodromy = without_monodromy ? NULL : nh_monodromy_try(arena, equation->blocks, equation->block);
     if (monodromy && !nh_interrupted()) {
         attempt->monodromy = monodromy;
         bound(attempt, attempt->monodromy->rank, false);
         if (!attempt->obstacle) attempt->obstacle = attempt->monodromy->obstacle;
     }
     if (attempt->orbit == equation->dimension) attempt->obstacle = NULL;
-    else if (!attempt->obstacle) attempt->obstacle = "its equation has more than two unknowns, which --absence tries";
+    else if (!attempt->obstacle) attempt->obstacle = without_monodromy;
     return true;
 }

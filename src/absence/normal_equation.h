@@ -14,10 +14,10 @@ typedef struct {
     const char *variable; /* "y", "tan(theta/2)" */
     /* all letters are algebraic functions on the curve, and the integrals used, or all of them, have one value */
     bool single_valued, all_single_valued;
-    bool periodic;        /* the moving coordinate is an angle: integrals have period 2 pi in it */
-    bool generic;         /* plane, integrals used and their number hold for all values of the parameters */
-    size_t known;         /* integrals used, independent along the curve (the energy included): r */
-    size_t *used;         /* their indices among those given; first the one that determines the curve */
+    bool periodic;    /* the moving coordinate is an angle: integrals have period 2 pi in it */
+    bool generic;     /* plane, integrals used and their number hold for all values of the parameters */
+    size_t known;     /* integrals used, independent along the curve (the energy included): r */
+    size_t *used;     /* their indices among those given; first the one that determines the curve */
     size_t unused;    /* given, with a differential along the curve that depends on those used, or has no value in its
                            * field */
     size_t dimension; /* d = letters - 1 - known */

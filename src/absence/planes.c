@@ -417,7 +417,8 @@ static bool begin_pattern(search *s, const int *sign)
     size_t n = shape->coordinates, first = n, moving = 0;
     for (size_t i = n; i-- > 0;) {
         if (!sign[i]) continue;
-        if (velocity_of(shape, i) == shape->count || (first < n && shape->angle[i] != shape->angle[first])) return false;
+        if (velocity_of(shape, i) == shape->count || (first < n && shape->angle[i] != shape->angle[first]))
+            return false;
         first = i;
         moving++;
     }
