@@ -9,7 +9,8 @@
  * absence->known_current, known, many_valued, and as expressions. */
 nh_known_integrals nh_absence_known(const nh_analysis *analysis, nh_absence *absence);
 
-/* What the engines say of an equation, which has no obstacle; without the monodromy for a reason, or NULL.  False: the computation was ended, and nothing is said. */
+/* What the engines say of an equation, which has no obstacle; without the monodromy for a reason, or NULL.  False: the
+ * computation was ended, and nothing is said. */
 bool nh_absence_attempt_run(nh_arena *arena, nh_absence_attempt *attempt, const char *without_monodromy);
 
 #endif
