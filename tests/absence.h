@@ -48,7 +48,7 @@ static inline size_t absence_bound(const nh_absence *a)
     case NH_ABSENCE_NONE_ELSE:
     case NH_ABSENCE_DEPENDENT: return a->known;
     case NH_ABSENCE_AT_MOST: return a->at_most;
-    case NH_ABSENCE_LIOUVILLE: return a->shape->coordinates - 1;
+    case NH_ABSENCE_LIOUVILLE: return a->shape->count - a->shape->coordinates - 1; /* degrees of freedom */
     default: return SIZE_MAX;
     }
 }

@@ -220,3 +220,19 @@ Test(absence_true, turns_that_are_not_closed)
     try_text("y' = h'", "coordinates: [{name: h, type: angle}, y, z]\nlagrangian: (h'^2 + y'^2 + z'^2)/2 - cos(h)\nconstraints: [\"y' = h'\"]\n"
              "forces: [\"z = h'*z' + h'*z'^3*y\"]\n", 3);
 }
+
+/* The roots of polynomials of high degree take long before any step is counted. */
+Test(absence_true, many_singular_points)
+{
+    nh_linear_equation root;
+    nh_linear_equation_init(&root, 1);
+    fmpz_poly_set_coeff_si(root.num, 0, 1);
+    fmpz_poly_set_coeff_si(root.den, 0, 3);
+    fmpz_poly_set_coeff_si(root.den, 300, 1);
+    nh_arena *arena = nh_arena_create();
+    nh_monodromy *m = nh_monodromy_try(arena, 1, &root);
+    cr_expect_eq(m->steps, 0U);
+    cr_expect_str_eq(m->obstacle, "there are more than 100 singular points");
+    nh_linear_equation_clear(&root);
+    nh_arena_free(arena);
+}

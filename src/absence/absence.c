@@ -8,6 +8,9 @@
 /* Without --absence one level of a few planes is tried, and nothing more once one of them decides. */
 enum { USUAL_PLANES = 8, MOST_PLANES = 64, MOST_LEVELS = 3 };
 
+/* Of all continuations along closed paths together: no other one begins then.  About 10 seconds. */
+static const uint64_t most_work = (uint64_t)1 << 28;
+
 /* ---- one attempt ---- */
 
 /* Has the equation of a higher order excluded all integrals but functions of the energy? */
@@ -68,6 +71,16 @@ static bool tried(const nh_absence *absence, const nh_normal_equation *equation)
     return false;
 }
 
+/* Why no monodromy is tried now, or NULL. */
+static const char *without_monodromy(const nh_absence *absence)
+{
+    uint64_t work = 0;
+    if (!absence->everything) return "its equation has more than two unknowns, which --absence tries";
+    for (size_t i = 0; i < absence->attempts; i++)
+        work += absence->attempt[i].monodromy ? absence->attempt[i].monodromy->work : 0;
+    return work >= most_work ? "the continuation along closed paths takes too much work" : NULL;
+}
+
 /* Tries one plane at its levels; true: nothing better can come. */
 static bool try_plane(nh_arena *arena, nh_absence *absence, const nh_plane *plane, const nh_known_integrals *known)
 {
@@ -84,7 +97,8 @@ static bool try_plane(nh_arena *arena, nh_absence *absence, const nh_plane *plan
             nh_normal_equation_clear(attempt->equation);
             continue;
         }
-        if (!nh_absence_attempt_run(arena, absence->shape, attempt, absence->everything)) {
+        const char *without = without_monodromy(absence);
+        if (!nh_absence_attempt_run(arena, absence->shape, attempt, absence->everything, without)) {
             nh_normal_equation_clear(attempt->equation);
             return false;
         }

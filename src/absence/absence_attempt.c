@@ -107,7 +107,8 @@ static void higher_order(nh_arena *arena, const nh_closed_shape *shape, nh_absen
         attempt->obstacle = higher->obstacle;
 }
 
-bool nh_absence_attempt_run(nh_arena *arena, const nh_closed_shape *shape, nh_absence_attempt *attempt, bool everything)
+bool nh_absence_attempt_run(nh_arena *arena, const nh_closed_shape *shape, nh_absence_attempt *attempt, bool everything,
+                            const char *without_monodromy)
 {
     const nh_normal_equation *equation = attempt->equation;
     for (size_t i = 0; i < equation->blocks; i++) {
@@ -120,13 +121,13 @@ bool nh_absence_attempt_run(nh_arena *arena, const nh_closed_shape *shape, nh_ab
     if (nh_interrupted()) return false;
     if (attempt->orbit < equation->dimension) higher_order(arena, shape, attempt, everything);
     bool refuted = attempt->higher && attempt->higher->refuted;
-    nh_monodromy *monodromy = everything ? nh_monodromy_try(arena, equation->blocks, equation->block) : NULL;
+    nh_monodromy *monodromy = without_monodromy ? NULL : nh_monodromy_try(arena, equation->blocks, equation->block);
     if (monodromy && !nh_interrupted()) {
         attempt->monodromy = monodromy;
         bound(attempt, attempt->monodromy->rank, false);
         if (!attempt->obstacle && !refuted) attempt->obstacle = attempt->monodromy->obstacle;
     }
     if (attempt->orbit == equation->dimension || refuted) attempt->obstacle = NULL;
-    else if (!attempt->obstacle) attempt->obstacle = "its equation has more than two unknowns, which --absence tries";
+    else if (!attempt->obstacle) attempt->obstacle = without_monodromy;
     return true;
 }

@@ -10,7 +10,8 @@ enum {
     digits = 20,
     first_bits = 256,
     last_bits = 4 * first_bits,
-    spare_bits = 32 /* of the singular points */
+    most_points = 100, /* singular ones */
+    spare_bits = 32    /* of the singular points */
 };
 
 static const uint64_t most_work = (uint64_t)1 << 27; /* about 5 seconds */
@@ -98,11 +99,12 @@ bool nh_monodromy_sum_init(nh_monodromy_sum *sum, size_t blocks, const nh_linear
     for (size_t b = 0; b < blocks; b++)
         sum->block[b].order = nh_alloc_array(block[b].size * sum->points + 1, sizeof *sum->block[b].order);
     size_t first = 0;
-    for (slong k = 0; k < factors->num; first += (size_t)fmpz_poly_degree(factors->p + k), k++)
+    for (slong k = 0; k < factors->num && sum->points <= most_points;
+         first += (size_t)fmpz_poly_degree(factors->p + k), k++)
         factor_points(sum, factors->p + k, first, sum->points);
     fmpz_poly_factor_clear(factors);
     fmpz_poly_clear(common);
-    return disjoint(sum);
+    return sum->points <= most_points && disjoint(sum);
 }
 
 void nh_monodromy_sum_clear(nh_monodromy_sum *sum)
@@ -187,7 +189,10 @@ static nh_monodromy *attempt(nh_arena *arena, size_t blocks, const nh_linear_equ
     *m = (nh_monodromy){.size = sum.size, .blocks = blocks, .bits = bits, .singular = sum.points};
     nh_monodromy_element *loop = nh_alloc_array(sum.points + 1, sizeof *loop);
     for (size_t i = 0; i < sum.points; i++) loop[i] = nh_monodromy_element_new(&sum);
-    if (!apart) {
+    if (sum.points > most_points) {
+        *hopeless = true;
+        m->obstacle = nh_arena_printf(arena, "there are more than %d singular points", most_points);
+    } else if (!apart) {
         m->obstacle = nh_arena_printf(arena, "the singular points were not separated with %ld bits", bits);
     } else if (!sum.points) {
         *hopeless = true;
@@ -202,6 +207,7 @@ static nh_monodromy *attempt(nh_arena *arena, size_t blocks, const nh_linear_equ
         traces(arena, m, &sum, loop);
     }
     m->steps = sum.steps;
+    m->work = sum.work;
     for (size_t i = 0; i < sum.points; i++) nh_monodromy_element_free(&sum, loop[i]);
     nh_free(loop);
     nh_monodromy_sum_clear(&sum);
@@ -220,7 +226,10 @@ nh_monodromy *nh_monodromy_try(nh_arena *arena, size_t blocks, const nh_linear_e
     bool hopeless = false;
     for (long bits = first_bits; bits <= last_bits && !hopeless && !(best && nh_interrupted()); bits *= 2) {
         nh_monodromy *m = attempt(arena, blocks, block, bits, &hopeless);
-        if (!best || m->rank > best->rank || (m->rank == best->rank && m->trace)) best = m;
+        m->work += best ? best->work : 0;
+        bool better = !best || m->rank > best->rank || (m->rank == best->rank && m->trace);
+        if (better) best = m;
+        else best->work = m->work;
         if (best->rank == best->size) break;
     }
     return best;

@@ -3,6 +3,8 @@
 #ifndef NH_MONODROMY_H
 #define NH_MONODROMY_H
 
+#include <stdint.h>
+
 #include "absence/linear_equation.h"
 
 typedef struct {
@@ -11,6 +13,7 @@ typedef struct {
     long bits;
     size_t blocks;
     size_t singular, steps, words; /* points, Taylor steps, elements of the Lie algebra used */
+    uint64_t work;                 /* products of complex numbers, times their words of 64 bits */
     /* loops are closed paths in the x-plane without the singular points: regular or irregular, the rank is that of the
      * monodromy group alone */
     const char **trace; /* per block and loop: of the monodromy, "re + im i" as balls of 20 digits; blocks x singular,
