@@ -57,7 +57,7 @@ static void make(answer *x, const char *text, size_t left)
         x->attempt[i] = (nh_absence_attempt){.equation = &x->equation[i], .p = "(x^2 - x)/(2/7 - x^2 + 2/3*x^3)", .q = "-(1 + 2*x)/(2/7 - x^2 + 2/3*x^3)"};
     }
     static slong lowest[3] = {-1, 0, 2}, degrees[2] = {0, 3};
-    static ulong pole[3] = {5, 11, 1073742390}, root[3] = {2, 3, 4};
+    static ulong pole[3] = {5, 11, 1073742390}, root[4] = {2, 3, 4, 5};
     static bool twice[3] = {true, true, true};
     static const char *exponent[4] = {"1/2", "1/2", "1/2", "5/3"}, *trace[4] = {"2.5", "-1.25", "1.5", "3"};
     x->kovacic = (nh_kovacic){.group = NH_GROUP_SL2, .regular = true, .r_num = "3*x^2-x+7", .r_den = "x^4 - 2", .prime = 1073742391, .poles = 3, .pole = pole, .double_pole = twice, .root = root, .exponent = exponent, .degrees = 2, .degree_of_p = degrees, .sign_vectors = 8,

@@ -86,6 +86,7 @@ static void put_certificate(nh_arena *arena, nh_json *to, const nh_kovacic *k)
     nh_json_put_number(item, "prime", (double)k->prime);
     put_residues(item, "poles", k->poles, k->pole);
     put_residues(item, "roots", k->poles, k->root);
+    nh_json_put_number(item, "root_infinity", k->root ? (double)k->root[k->poles] : 0);
     put_signed(item, "degrees", k->degrees, k->degree_of_p);
     nh_json *list = nh_json_put_array(item, "invariants");
     for (size_t i = 0; i < NH_KOVACIC_INVARIANTS; i++) {
