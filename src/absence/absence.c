@@ -159,13 +159,20 @@ static void from_group(nh_absence *absence)
     }
 }
 
+/* Are all integrals found of the class of which the attempt speaks? */
+static bool speaks_of_all(const nh_absence_attempt *attempt)
+{
+    const nh_normal_equation *equation = attempt->equation;
+    return equation->all_single_valued && (equation->all_algebraic || !attempt->rational);
+}
+
 /* A theorem that allows fewer integrals than are proved to exist is an error of the program. */
 static void compare(nh_arena *arena, nh_absence *absence)
 {
     for (size_t i = 0; i < absence->attempts; i++) {
         const nh_absence_attempt *a = &absence->attempt[i];
         size_t at_most = absence->shape->count - 1 - a->orbit;
-        if (a->equation->obstacle || absence->known <= at_most) continue;
+        if (a->equation->obstacle || absence->known <= at_most || !speaks_of_all(a)) continue;
         absence->contradiction =
             nh_arena_printf(arena, "the motions %s allow at most %zu independent integrals, and %zu are proved",
                             a->equation->plane->words, at_most, absence->known);
