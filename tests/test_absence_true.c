@@ -139,7 +139,7 @@ static void try_text(const char *name, const char *text, size_t exist)
 Test(absence_true, behind_maps)
 {
     for (size_t i = 0; i < POTENTIAL_COUNT * MAP_COUNT; i++) {
-        if (!sweep_tries(i, 172, 399)) continue;
+        if (!sweep_tries(i, 210, 399)) continue;
         const potential *p = &POTENTIALS[i % POTENTIAL_COUNT];
         char text[600], name[200];
         const char *x = MAPS[i / POTENTIAL_COUNT].x, *y = MAPS[i / POTENTIAL_COUNT].y;
