@@ -66,7 +66,7 @@ Test(absence_systems, published_integrals_are_not_excluded, PLAIN_ONLY)
 Test(absence_systems, integrals_that_are_withheld_are_not_excluded, PLAIN_ONLY)
 {
     for (size_t i = 0; i < ABSENCE_COUNT; i++) {
-        if (ABSENCE[i].exist < 2 || !sweep_tries(i, 10, 20)) continue;
+        if (ABSENCE[i].exist < 2 || !sweep_tries(i, 30, 60)) continue;
         char why[200];
         nh_analysis *r = asked(&ABSENCE[i]);
         cr_expect(absence_without(r, why, sizeof why), "%s: %s", ABSENCE[i].name, why);

@@ -108,6 +108,25 @@ Test(kovacic_certificate, another_program_repeats_those_with_irregular_points)
     expect_proof("a pole of order 5");
 }
 
+/* What is left out is looked for. */
+Test(kovacic_certificate, degrees_and_forms_are_not_taken_on_trust)
+{
+    if (no_python()) return;
+    put_text(r, "1  2/3  0 0 1"); /* x^2 */
+    nh_kovacic *k = decide(r);
+    k->degrees = 0;
+    for (size_t i = 0; i < NH_KOVACIC_INVARIANTS; i++) k->invariant[i].possible = false;
+    cr_expect_str_eq(checked(k), "Riccati's equation has a solution", "%s", checked(k));
+    const ratio dihedral[3] = {{1, 4}, {1, 4}, {1, 9}};
+    hypergeometric(r, dihedral);
+    k = decide(r);
+    cr_assert(k->invariant[0].possible && k->invariant[0].solutions > 0);
+    k->invariant[0].degree--;
+    cr_expect_str_eq(checked(k), "exponents of a form of degree 4", "%s", checked(k));
+    k->invariant[0].possible = false;
+    cr_expect_str_eq(checked(k), "forms of degree 4 are left out", "%s", checked(k));
+}
+
 Test(kovacic_certificate, false_ones_are_seen)
 {
     if (no_python()) return;

@@ -37,6 +37,7 @@ static int closes(const nh_absence *absence, const nh_absence_attempt *attempt)
     if (equation->obstacle) return 0;
     if (by_higher(attempt)) return absence->known == 1 ? 2 : 0;
     if (!attempt->orbit) return 0;
+    if (attempt->rational && !equation->all_algebraic) return 0;
     if (attempt->orbit == equation->dimension) return equation->single_valued || turns(attempt) ? 2 : 0;
     if (!equation->all_single_valued && !turns(attempt)) return 0;
     return absence->known == absence->shape->count - 1 - attempt->orbit ? 1 : 0;
@@ -195,13 +196,20 @@ static void from_group(nh_absence *absence)
     }
 }
 
+/* Are all integrals found of the class of which the attempt speaks? */
+static bool speaks_of_all(const nh_absence_attempt *attempt)
+{
+    const nh_normal_equation *equation = attempt->equation;
+    return equation->all_single_valued && (equation->all_algebraic || !attempt->rational);
+}
+
 /* A theorem that allows fewer integrals than are proved to exist is an error of the program. */
 static void compare(nh_arena *arena, nh_absence *absence)
 {
     for (size_t i = 0; i < absence->attempts; i++) {
         const nh_absence_attempt *a = &absence->attempt[i];
         size_t at_most = most_integrals(absence, a);
-        if (a->equation->obstacle || absence->known <= at_most) continue;
+        if (a->equation->obstacle || absence->known <= at_most || !speaks_of_all(a)) continue;
         absence->contradiction =
             nh_arena_printf(arena, "the motions %s allow at most %zu independent integrals, and %zu are proved",
                             a->equation->plane->words, at_most, absence->known);

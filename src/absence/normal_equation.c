@@ -59,7 +59,7 @@ nh_normal_equation *nh_normal_equation_of(nh_arena *arena, const nh_closed_shape
         .arena = arena, .dag = shape->model->dag, .shape = shape, .plane = plane, .known = known, .out = out};
     out->plane = plane;
     out->generic = plane->generic;
-    out->single_valued = out->all_single_valued = true;
+    out->single_valued = out->all_single_valued = out->all_algebraic = true;
     out->periodic = plane->angle;
     out->used = nh_arena_alloc(arena, (known->count + 1) * sizeof *out->used);
     begin(&work);

@@ -15,13 +15,14 @@ typedef struct {
     const char *variable; /* "y", "tan(theta/2)" */
     /* all letters are algebraic functions on the curve, and the integrals used, or all of them, have one value */
     bool single_valued, all_single_valued;
-    bool periodic;    /* the moving coordinate is an angle: integrals have period 2 pi in it */
-    bool generic;     /* plane, integrals used and their number hold for all values of the parameters */
-    size_t known;     /* integrals used, independent along the curve (the energy included): r */
-    size_t *used;     /* their indices among those given; first the one that determines the curve */
-    size_t unused;    /* given, with a differential along the curve that depends on those used, or has no value in its
+    bool all_algebraic; /* no integral contains an exponential, or a hyperbolic function */
+    bool periodic;      /* the moving coordinate is an angle: integrals have period 2 pi in it */
+    bool generic;       /* plane, integrals used and their number hold for all values of the parameters */
+    size_t known;       /* integrals used, independent along the curve (the energy included): r */
+    size_t *used;       /* their indices among those given; first the one that determines the curve */
+    size_t unused;      /* given, with a differential along the curve that depends on those used, or has no value in its
                            * field */
-    size_t dimension; /* d = letters - 1 - known */
+    size_t dimension;   /* d = letters - 1 - known */
     size_t blocks;
     nh_linear_equation *block; /* the graded pieces of a triangular form; the sizes add to d, or to 2 d */
     bool doubled;              /* the coefficients are not rational: the equation beside its conjugate */

@@ -152,6 +152,18 @@ static bool has_one_value(const nh_normal_work *work, size_t k)
     return good;
 }
 
+/* Does the integral contain no exponential, and no hyperbolic function? */
+static bool is_algebraic(const nh_normal_work *work, size_t k)
+{
+    NH_LIST(call);
+    bool good = true;
+    for (size_t i = nh_functions_in(work->dag, work->integral[k], &call); i-- > 0;) {
+        nh_function f = nh_function_of(work->dag, call[i]);
+        good = good && (f == NH_SIN || f == NH_COS || f == NH_TAN || f == NH_PI);
+    }
+    return good;
+}
+
 /* The integral is used. */
 static void use(nh_normal_work *work, size_t k)
 {
@@ -174,6 +186,7 @@ static bool hold(nh_normal_work *work)
     use(work, work->determines);
     for (size_t k = 0; k < work->known->count && good; k++) {
         out->all_single_valued = out->all_single_valued && has_one_value(work, k);
+        out->all_algebraic = out->all_algebraic && is_algebraic(work, k);
         if (k == work->determines) continue;
         bool usable = slopes_of(work, k, slope);
         if (usable) nh_curve_field_mul(&work->field, &lambda, &slope[0], &energy[0]);

@@ -123,8 +123,8 @@ static void put_at_most(const nh_absence_writer *w)
     nh_text_add(w->out, a->at_most == 1 ? " is " : " are ");
     nh_absence_words_put_class(w);
     put_evidence(w);
-    if (!a->known) {
-        nh_text_add(w->out, "; none is known.");
+    if (!a->known || a->known > a->at_most) { /* more are known, some of them of another class */
+        nh_text_add(w->out, a->known ? "." : "; none is known.");
         return;
     }
     nh_text_addf(w->out, "; %zu %s known", a->known, a->known == 1 ? "is" : "are");
