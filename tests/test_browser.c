@@ -371,6 +371,7 @@ static void expect_sound(const place *p, const cJSON *seen, const char *line)
     cr_expect_eq(cJSON_GetNumberValue(of(seen, "resources")), 0, "%s: something was fetched", line);
     cr_expect_eq(cJSON_GetArraySize(of(seen, "empty")), 0, "%s: %s has no box", line, cJSON_GetStringValue(cJSON_GetArrayItem(of(seen, "empty"), 0)));
     cr_expect_leq(cJSON_GetNumberValue(of(seen, "width")), cJSON_GetNumberValue(of(seen, "room")), "%s: the page is wider than the window", line);
+    cr_expect_eq(cJSON_GetNumberValue(of(seen, "hyphens")), 0, "%s: a product is broken at a hyphen", line);
     expect_no_fault(seen, line);
     free(console);
 }
@@ -426,6 +427,18 @@ Test(browser, so_are_those_of_the_other_commands, PLAIN_ONLY)
         cJSON_Delete(seen);
         place_clear(&p);
     }
+    if (skipped) cr_skip_test("no chromium");
+}
+
+/* The long curve of Euler's disk stands in a narrow cell of a table. */
+Test(browser, products_break_at_a_dot, PLAIN_ONLY)
+{
+    place p;
+    cJSON *seen = page_looked_at(&p, "analyze euler_disk --option work=200 --quiet --html page.html", wide_window);
+    if (seen) cr_expect_eq(cJSON_GetNumberValue(of(seen, "hyphens")), 0);
+    bool skipped = !seen;
+    cJSON_Delete(seen);
+    place_clear(&p);
     if (skipped) cr_skip_test("no chromium");
 }
 

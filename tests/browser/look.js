@@ -10,6 +10,8 @@
     seen.formulas++;
     if (!(box.width > 0) || !(box.height > 0)) seen.empty.push(m.textContent.slice(0, 60));
   });
+  // a product that is broken between two lines shows a dot: a hyphen would be read as a minus
+  seen.hyphens = all('math').filter(function (m) { return m.nextSibling && m.nextSibling.nodeValue === '\u00ad' && getComputedStyle(m.parentElement).hyphenateCharacter.indexOf('\u00b7') < 0; }).length;
   axe.run(document, { resultTypes: ['violations'] }).then(function (r) {
     seen.faults = r.violations.map(function (v) { return { id: v.id, impact: v.impact, where: v.nodes.slice(0, 3).map(function (n) { return n.target.join(' '); }).join('; '), nodes: v.nodes.length }; });
     seen.rules = r.passes.length;
