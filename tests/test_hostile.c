@@ -210,3 +210,24 @@ Test(hostile, pipes)
     for (int i = 0; i < 2; i++) unlink(name[i]);
     place_clear(&p);
 }
+
+/* A formula of megabytes, as equations of long chains have them: one whose rest is measured for each character takes hours. */
+Test(hostile, long_texts_are_mended)
+{
+    enum { characters = 1 << 23 };
+    char *text = malloc(characters + 1);
+    cr_assert_not_null(text);
+    memset(text, 'x', characters);
+    text[characters - 1] = '\xff';
+    text[characters] = 0;
+    nh_text out;
+    nh_text_init(&out);
+    nh_utf8_mend(text, &out);
+    cr_expect_eq(out.length, (size_t)characters + 2);
+    cr_expect_str_eq(nh_text_string(&out) + characters - 1, "\xef\xbf\xbd");
+    nh_text_clear(&out);
+    nh_escape_line(text, &out);
+    cr_expect_eq(out.length, (size_t)characters);
+    nh_text_clear(&out);
+    free(text);
+}

@@ -1,6 +1,14 @@
 #include "base/escape.h"
 
-#include <string.h>
+enum { LONGEST_CHARACTER = 4 }; /* bytes in UTF-8 */
+
+/* What is left of the text, at most a character: the whole of a long one is not measured for each of them. */
+static size_t left_of(const char *text)
+{
+    size_t left = 0;
+    while (left < LONGEST_CHARACTER && text[left]) left++;
+    return left;
+}
 
 static bool leads(char c) { return ((unsigned char)c & 0xC0) != 0x80; }
 
@@ -34,7 +42,7 @@ void nh_utf8_mend(const char *text, nh_text *out)
 {
     for (size_t length; *text; text += length ? length : 1) {
         uint32_t code;
-        length = nh_utf8_decode(text, strlen(text) < 4 ? strlen(text) : 4, &code);
+        length = nh_utf8_decode(text, left_of(text), &code);
         if (length) nh_text_add_n(out, text, length);
         else nh_utf8_add(out, 0xFFFD);
     }
@@ -53,7 +61,7 @@ bool nh_is_invisible(uint32_t code)
 static const char *next(const char *text, size_t *bytes, size_t *written)
 {
     uint32_t code = 0;
-    size_t length = nh_utf8_decode(text, strlen(text) < 4 ? strlen(text) : 4, &code);
+    size_t length = nh_utf8_decode(text, left_of(text), &code);
     bool good = length && !nh_is_invisible(code);
     *bytes = length ? length : 1;
     *written = good ? length : 1;
