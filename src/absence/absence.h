@@ -57,8 +57,8 @@ typedef struct nh_absence {
     size_t resonances;
     nh_resonance **resonance;
     const char *obstacle; /* of NH_ABSENCE_OPEN: the first, in words */
-    const char
-        *contradiction; /* engines, or a refutation and an integral, disagree: an error of the program; or NULL */
+    /* a refutation and an integral that is proved disagree: an error of the program; or NULL */
+    const char *contradiction;
 } nh_absence;
 
 /* Fills analysis->absence.  `everything`: all planes, levels and engines; else what costs little.  Counted work decides
