@@ -250,3 +250,19 @@ Test(absence_true, integrals_of_another_class_contradict_nothing)
     cr_expect_geq(absence_bound(a), 3U);
     nh_analysis_free(r);
 }
+
+/* u_xx = (w u)_x with w = 6/(x^2 - 2) + 2/x: the normal form has a triangular group of dimension 2, and y'/h' - w(h) y is an
+ * integral that is rational. */
+Test(absence_true, a_triangular_normal_form_leaves_an_integral)
+{
+    nh_analysis *r = asked("coordinates: [h, y]\nlagrangian: (h'^2 + y'^2)/2 - h^4/4\n"
+                           "forces: [\"y = (6/(h^2 - 2) + 2/h)*h'*y' - (12*h/(h^2 - 2)^2 + 2/h^2)*h'^2*y - h^3*y'/h'\"]\n");
+    const nh_absence *a = r->absence;
+    cr_assert_gt(a->attempts, 0U);
+    cr_assert_not_null(a->attempt[0].kovacic);
+    cr_expect_eq(a->attempt[0].kovacic->group, NH_GROUP_TRIANGULAR);
+    cr_expect_eq(a->attempt[0].orbit, 1U);
+    cr_expect_eq(a->verdict, NH_ABSENCE_AT_MOST);
+    cr_expect_eq(a->at_most, 2U);
+    nh_analysis_free(r);
+}
