@@ -130,8 +130,8 @@ static void discriminant(fmpz_t out, const fmpz_poly_t f)
     fmpz_clear(part);
 }
 
-/* The dimension of the span of the roots of the factors of degree 1 and 2: square roots of whole numbers whose
- * quotients are no squares are independent over Q. */
+/* The dimension of the span over Q of the roots of the factors of degree 1 and 2.  Square roots of whole numbers are
+ * independent if no quotient of two of these numbers is a square. */
 static size_t span_of_squares(const fmpz_poly_factor_t parts)
 {
     size_t span = 0;
